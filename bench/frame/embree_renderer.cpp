@@ -103,13 +103,11 @@ EmbreeFrameTimes EmbreeRenderer::draw(int frame, bool split) {
   std::vector<std::string> notes;
   const auto lights = render::drawn_lights(scene, input, {}, notes);  // never fails: all are asked for
   lights_.clear();
-  std::vector<shade::PlacedLight> placed;
   masks_.resize(lights->size());
   std::vector<shade::LightFactors> factors(lights->size());
   for (std::size_t i = 0; i < lights->size(); ++i) {
     const render::DrawnLight& light = (*lights)[i];
     lights_.push_back(render::shadow_light(light.light, light.placed));
-    placed.push_back({light.light, light.placed, nullptr});
     masks_[i].resize(ids_.size());
     factors[i].mask = masks_[i];
   }
@@ -122,7 +120,7 @@ EmbreeFrameTimes EmbreeRenderer::draw(int frame, bool split) {
   times.shadows = traced - times.primary;
 
   const shade::Subject subject{geometry_, view_, task_.surfaces};
-  const shade::Lighting lighting{placed, scene.ambient_light, scene.background, nullptr};
+  const shade::Lighting lighting{*lights, scene.ambient_light, scene.background, nullptr};
   const shade::PixelSamples pixels{task_.width, task_.height, ids_, factors, {}};
   shade::shade_picture(subject, lighting, pixels, {.transfer = scene.transfer}, image_);
   times.shade = watch.lap_ms();

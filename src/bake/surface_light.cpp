@@ -210,8 +210,7 @@ Expected<SurfaceLight> SurfaceLight::create(const Scene& scene, const render::Fr
   if (!drawn) return tl::unexpected(drawn.error());
   for (render::DrawnLight& light : *drawn) {
     TracedLight traced{std::move(light), {}, state->geometry, std::make_unique<PointTracer>()};
-    const AreaLight* area = traced.drawn.area ? &*traced.drawn.area : nullptr;
-    traced.terms = shade::light_terms({traced.drawn.light, traced.drawn.placed, area}, ViewRays{});
+    traced.terms = shade::light_terms(traced.drawn, ViewRays{});
     std::vector<std::uint8_t> casters;
     render::casters_of(scene, frame, traced.drawn, casters);
     if (!casters.empty()) {

@@ -42,9 +42,7 @@ std::size_t Renderer::State::part_edges(const FrameInput& input, const std::vect
   const CentreShadows centres = centre_shadows(frame);
   const SurfaceMatch match(input.geometry, input.view);
   std::size_t with_glass = 0;
-  with_threads(settings.threads, [&] {
-    with_glass = part_by_glass({chosen.edges, centres, frame.offsets, further, match}, chosen.edges);
-  });
+  with_glass = part_by_glass({chosen.edges, centres, frame.offsets, further, match}, chosen.edges);
   return with_glass;
 }
 
@@ -53,24 +51,20 @@ Expected<void> Renderer::State::trace_own(const FrameInput& input, const std::ve
   const std::size_t count = edges.own.size();
   if (count == 0) return {};
   if (stop_requested(stop)) return base::fail("stopped");
-  with_threads(settings.threads, [&] {
-    place_own(edges.own, own_ids, own_places);
-    points::compute_sample_points(own_ids, own_places, count, input.view, triangle_view(input.geometry),
-                                  own_hard.points);
-  });
+  place_own(edges.own, own_ids, own_places);
+  points::compute_sample_points(own_ids, own_places, count, input.view, triangle_view(input.geometry),
+                                own_hard.points);
   if (auto lit = light_samples(input, lights, settings, LightKinds::masks, own_hard, stop); !lit) return lit;
   const points::SampleGrid grid(count);
-  with_threads(settings.threads, [&] {
-    parallel::parallel_ranges(count, at_once, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) {
-        LitBits bits = 0;
-        for (std::size_t light = 0; light < lights.size(); ++light) {
-          const ShadowMask& mask = own_hard.masks[light];
-          if (!mask.empty() && mask[grid.pixel(i)] != 0) bits |= LitBits{1} << light;
-        }
-        edges.lit[edges.own[i].number] = bits;
+  parallel::parallel_ranges(count, at_once, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      LitBits bits = 0;
+      for (std::size_t light = 0; light < lights.size(); ++light) {
+        const ShadowMask& mask = own_hard.masks[light];
+        if (!mask.empty() && mask[grid.pixel(i)] != 0) bits |= LitBits{1} << light;
       }
-    });
+      edges.lit[edges.own[i].number] = bits;
+    }
   });
   return {};
 }
@@ -78,14 +72,14 @@ Expected<void> Renderer::State::trace_own(const FrameInput& input, const std::ve
 Expected<void> Renderer::State::light_edges(const FrameInput& input, const std::vector<DrawnLight>& lights,
                                             const RenderSettings& settings, const EdgeTask& task,
                                             const StopFlag* stop) {
-  with_threads(settings.threads, [&] { find_edge_samples(task, edges); });
+  find_edge_samples(task, edges);
   return trace_own(input, lights, settings, stop);
 }
 
 Expected<void> Renderer::State::add_shared(const FrameInput& input, const std::vector<DrawnLight>& lights,
                                            const RenderSettings& settings, const SampleFrame& frame,
                                            std::span<const std::uint32_t> chosen, std::size_t first,
-                                           SampleMeans& means, const StopFlag* stop) {
+                                           const StopFlag* stop) {
   const CentreShadows centres = centre_shadows(frame);
   const SurfaceMatch match(input.geometry, input.view);
   const std::size_t pixels_at_once = most_edges_samples / frame.offsets.size();
@@ -93,15 +87,11 @@ Expected<void> Renderer::State::add_shared(const FrameInput& input, const std::v
     const auto part = chosen.subspan(i, std::min(pixels_at_once, chosen.size() - i));
     const EdgeTask task{part, centres, frame.offsets, further, match};
     if (auto lit = light_edges(input, lights, settings, task, stop); !lit) return lit;
-    with_threads(settings.threads, [&] {
-      list_edges(task, edges, listed);
-      const GatheredFactors gathered = GatheredFactors::of_bits(frame.pixels.factors, listed.from);
-      const auto factors = gathered.factors();
-      shade::shade_samples(frame.subject, frame.lighting,
-                           {listed.ids, listed.places, factors, {}, texture_width_px(settings.antialias)},
-                           shaded);
-      means.add_colors(first + i, listed, shaded);
-    });
+    list_edges(task, edges, listed);
+    const GatheredFactors gathered = GatheredFactors::of_bits(frame.pixels.factors, listed.from);
+    const auto factors = gathered.factors();
+    const shade::Samples list{listed.ids, listed.places, factors, {}, texture_width_px(settings.antialias)};
+    if (auto added = shading->add_samples(list, shares_of_listed(first + i)); !added) return added;
   }
   return {};
 }

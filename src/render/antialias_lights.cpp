@@ -64,11 +64,9 @@ Expected<void> Renderer::State::light_softly(const FrameInput& input, const std:
                                              const RenderSettings& settings, const SampleFrame& frame,
                                              const StopFlag* stop) {
   const TriangleView triangles = triangle_view(input.geometry);
-  with_threads(settings.threads, [&] {
-    borrow_soft(input);
-    points::take_points(at_samples.points, own_slots, own_soft.points);
-    compute_shading_normals(own_soft.points, input.geometry.normals, input.view, triangles, own_soft.normals);
-  });
+  borrow_soft(input);
+  points::take_points(at_samples.points, own_slots, own_soft.points);
+  compute_shading_normals(own_soft.points, input.geometry.normals, input.view, triangles, own_soft.normals);
   if (auto lit = light_samples(input, lights, settings, LightKinds::areas, own_soft, stop); !lit) return lit;
   const points::SampleGrid grid(own_slots.size());
   const auto value = [&](const auto& of_pixels, const auto& own, std::uint32_t from) {
@@ -79,26 +77,24 @@ Expected<void> Renderer::State::light_softly(const FrameInput& input, const std:
     for (std::size_t i = 0; i < soft_from.size(); ++i)
       out[i] = samples.ids[i] == no_triangle ? 0.0f : value(of_pixels, own, soft_from[i]);
   };
-  with_threads(settings.threads, [&] {
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-      if (!lights[i].area) continue;
-      gather(irradiance[i], own_soft.irradiance[i], at_samples.irradiance[i]);
-      gather(frame.masks[i].visible_fraction.pixels, own_soft.visible_fraction[i],
-             at_samples.visible_fraction[i]);
-      if (input.geometry.see_through.empty()) continue;
-      TintMask tint;
-      for (std::uint32_t slot = 0; slot < soft_from.size(); ++slot) {
-        if (samples.ids[slot] == no_triangle) continue;
-        const glm::vec3 factor =
-            value(tints[i].factors().factors, own_soft.tints[i].factors().factors, soft_from[slot]);
-        if (factor == glm::vec3(1.0f)) continue;
-        tint.pixels.push_back(slot);
-        tint.factors.push_back(factor);
-      }
-      at_samples.tints[i].set(tint);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    if (!lights[i].area) continue;
+    gather(irradiance[i], own_soft.irradiance[i], at_samples.irradiance[i]);
+    gather(frame.masks[i].visible_fraction.pixels, own_soft.visible_fraction[i],
+           at_samples.visible_fraction[i]);
+    if (input.geometry.see_through.empty()) continue;
+    TintMask tint;
+    for (std::uint32_t slot = 0; slot < soft_from.size(); ++slot) {
+      if (samples.ids[slot] == no_triangle) continue;
+      const glm::vec3 factor =
+          value(tints[i].factors().factors, own_soft.tints[i].factors().factors, soft_from[slot]);
+      if (factor == glm::vec3(1.0f)) continue;
+      tint.pixels.push_back(slot);
+      tint.factors.push_back(factor);
     }
-    if (settings.ao.mode != AoMode::none) gather(openness, own_soft.openness, at_samples.openness);
-  });
+    at_samples.tints[i].set(tint);
+  }
+  if (settings.ao.mode != AoMode::none) gather(openness, own_soft.openness, at_samples.openness);
   return {};
 }
 
@@ -107,18 +103,15 @@ Expected<void> Renderer::State::light_sparsely(const FrameInput& input, const st
                                                const RenderSettings& settings, const EdgeTask& task,
                                                const StopFlag* stop) {
   if (auto lit = light_edges(input, lights, settings, task, stop); !lit) return lit;
-  with_threads(settings.threads, [&] {
-    for (std::size_t light = 0; light < lights.size(); ++light) {
-      ShadowMask& to = at_samples.masks[light];
-      if (lights[light].area) continue;
-      to.resize(samples.grid.pixels(), 0);
-      parallel::parallel_ranges(samples.count, std::size_t{1} << 14,
-                                [&](std::size_t first, std::size_t last) {
-                                  for (std::size_t i = first; i < last; ++i)
-                                    to[samples.slots[i]] = (edges.lit[i] >> light & 1u) != 0 ? 255 : 0;
-                                });
-    }
-  });
+  for (std::size_t light = 0; light < lights.size(); ++light) {
+    ShadowMask& to = at_samples.masks[light];
+    if (lights[light].area) continue;
+    to.resize(samples.grid.pixels(), 0);
+    parallel::parallel_ranges(samples.count, std::size_t{1} << 14, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i)
+        to[samples.slots[i]] = (edges.lit[i] >> light & 1u) != 0 ? 255 : 0;
+    });
+  }
   return {};
 }
 
@@ -129,10 +122,8 @@ Expected<void> Renderer::State::light_packed(const FrameInput& input, const std:
   const bool soft_too = has_areas(lights) || settings.ao.mode != AoMode::none;
   const bool sparsely = shadows && input.geometry.see_through.empty() && shares_masks(lights, settings);
   if ((shadows && !sparsely) || soft_too || !samples.layer.empty()) {
-    with_threads(settings.threads, [&] {
-      points::compute_sample_points(samples.ids, samples.places, samples.count, input.view,
-                                    triangle_view(input.geometry), at_samples.points);
-    });
+    points::compute_sample_points(samples.ids, samples.places, samples.count, input.view,
+                                  triangle_view(input.geometry), at_samples.points);
   }
   at_samples.normals.clear();
   at_samples.begin(lights.size());

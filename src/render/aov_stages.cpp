@@ -92,13 +92,11 @@ base::ImageF Renderer::State::irradiance_seen(const shade::Subject& subject,
                                               const shade::PixelSamples& pixels) const {
   const Material white{.base_color = glm::vec3(1.0f), .model = SurfaceModel::phong};
   const shade::SurfaceTable surface(std::span(&white, 1));
-  std::vector<shade::PlacedLight> placed;
-  for (const DrawnLight& light : lights) {
-    placed.push_back({light.light, light.placed, light.area ? &*light.area : nullptr});
-    if (light.light.falloff == Falloff::inverse_square) placed.back().light.color *= glm::pi<float>();
-  }
+  std::vector<DrawnLight> without_units = lights;
+  for (DrawnLight& light : without_units)
+    if (light.light.falloff == Falloff::inverse_square) light.light.color *= glm::pi<float>();
   const shade::Subject all_white{subject.geometry, subject.view, surface, subject.smooth_terminator};
-  return colors_of(all_white, {placed, glm::vec3(0.0f)}, pixels);
+  return colors_of(all_white, {without_units, glm::vec3(0.0f)}, pixels);
 }
 
 /// What shows where each surface shines by itself in its base colour. The surfaces are as before afterwards.
@@ -131,11 +129,9 @@ void Renderer::State::fill_aovs(const FrameInput& input, const std::vector<Drawn
   const shade::PixelSamples pixels{seen.width, seen.height, seen.ids, factors, {}};
   const shade::PixelSamples unlit{seen.width, seen.height, seen.ids, {}, {}};
   const shade::Subject subject{input.geometry, input.view, surfaces, lifts_points(settings)};
-  with_threads(settings.threads, [&] {
-    if (wanted.depth || wanted.normal) find_surfaces_seen(input, wanted, out);
-    if (wanted.irradiance) out.irradiance = irradiance_seen(subject, lights, pixels);
-    if (wanted.albedo) out.albedo = albedo_seen(input, unlit);
-  });
+  if (wanted.depth || wanted.normal) find_surfaces_seen(input, wanted, out);
+  if (wanted.irradiance) out.irradiance = irradiance_seen(subject, lights, pixels);
+  if (wanted.albedo) out.albedo = albedo_seen(input, unlit);
 }
 
 }  // namespace tenebra::render

@@ -48,13 +48,11 @@ Expected<void> Renderer::State::trace_visible_part(const AreaTask& task, const D
   const TriangleView triangles = traced_triangles(task.input, light, settings);
   const HardShadowConfig of_points{.variant = settings.hard.variant, .simd = settings.hard.simd};
   bool done = false;
-  with_threads(settings.threads, [&] {
-    done = settings.soft_points > 0
-               ? light_points.trace(task.at, task.normals, task.input.view, triangles, *light.area,
-                                    settings.soft_points, of_points, out, task.stop)
-               : soft.trace(task.at, task.normals, task.input.view, triangles, *light.area, settings.soft,
-                            out, task.stop);
-  });
+  done = settings.soft_points > 0
+             ? light_points.trace(task.at, task.normals, task.input.view, triangles, *light.area,
+                                  settings.soft_points, of_points, out, task.stop)
+             : soft.trace(task.at, task.normals, task.input.view, triangles, *light.area, settings.soft, out,
+                          task.stop);
   if (!done) return base::fail("{}", soft.refusal().empty() ? "stopped" : soft.refusal().c_str());
   groups_changed |= settings.soft_points == 0 && soft.stats().groups_changed > 0;
   if (task.counts == nullptr) return {};
@@ -90,8 +88,7 @@ Expected<void> Renderer::State::trace_area(const AreaTask& task, const DrawnLigh
   if (!light.back) return {};
   const auto weigh = [&](const AreaLight& area, AreaSide& side) {
     base::Stopwatch watch;
-    with_threads(task.settings.threads,
-                 [&] { soft::weigh_evenly(task.at, task.normals, area, task.settings.soft.simd, side.lit); });
+    soft::weigh_evenly(task.at, task.normals, area, task.settings.soft.simd, side.lit);
     if (task.counts != nullptr) task.counts->timings.irradiance_ms += watch.lap_ms();
   };
   weigh(*light.area, out);

@@ -58,7 +58,8 @@ void add_emissive(const Scene& scene, const FrameInput& input, std::vector<Drawn
       notes.push_back(fmt::format("mesh {} is the face of an area light and counts once", polygon.mesh));
       continue;
     }
-    DrawnLight drawn{.number = number++};
+    DrawnLight drawn;
+    drawn.number = number++;
     drawn.light.name = polygon.mesh;
     drawn.light.type = LightType::area_rect;
     drawn.light.color = polygon.radiance;
@@ -88,7 +89,7 @@ Expected<std::vector<DrawnLight>> drawn_lights(const Scene& scene, const FrameIn
   std::vector<DrawnLight> lights;
   for (const WorldLight& placed : input.lights) {
     const int number = static_cast<int>(lights.size());
-    lights.push_back({number, light_at(scene, placed), placed, std::nullopt});
+    lights.push_back({.light = light_at(scene, placed), .placed = placed, .number = number});
   }
   if (settings.shadows == ShadowMode::soft) {
     const math::Box<double> box = box_of(input.geometry);

@@ -1,21 +1,15 @@
 // The lights that a frame draws, each with the shadows it gets.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "render/area_lights.h"
+#include "shade/light_terms.h"
 
 namespace tenebra::render {
 
-struct DrawnLight {
-  int number = -1;  ///< index into FrameInput::lights; emissive meshes follow them
-  Light light;
-  WorldLight placed;
-  std::optional<AreaLight> area;  ///< soft shadows of this polygon; none: those of a point, or none at all
-  std::optional<AreaLight> back;  ///< shines alike in every direction: the polygon's other side
-};
+using shade::DrawnLight;  // the one type of a light in a frame
 
 /// Whether one of them has an area.
 bool has_areas(const std::vector<DrawnLight>& lights);

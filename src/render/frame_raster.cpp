@@ -108,9 +108,7 @@ Expected<void> FrameRaster::draw(const FrameGeometry& geometry, const ViewRays& 
   base::Stopwatch watch;
   if (!gl_) {
     Expected<void> drawn;
-    with_threads(wish.threads, [&] {
-      drawn = cpu_.draw(geometry, view, wish.width, wish.height, wish.with_depth, wish.simd, out);
-    });
+    drawn = cpu_.draw(geometry, view, wish.width, wish.height, wish.with_depth, wish.simd, out);
     timings.raster_ms = watch.lap_ms();
     return drawn;
   }
@@ -138,7 +136,7 @@ Expected<void> FrameRaster::draw_one_by_one(const FrameGeometry& geometry, const
     if (stop_requested(stop)) return base::fail("stopped");
     if (auto drawn = draw(geometry, shifted_view(view, places[k]), wish, one_place_, unused); !drawn)
       return drawn;
-    with_threads(wish.threads, [&] { out.set_place(k, one_place_.ids, one_place_.layer); });
+    out.set_place(k, one_place_.ids, one_place_.layer);
   }
   return {};
 }
@@ -148,9 +146,7 @@ Expected<void> FrameRaster::draw_places(const FrameGeometry& geometry, const Vie
                                         visibility::PlaceIds& out, const StopFlag* stop) {
   if (gl_) return draw_one_by_one(geometry, view, places, wish, out, stop);
   Expected<bool> at_once = true;
-  with_threads(wish.threads, [&] {
-    at_once = cpu_.draw_places(geometry, view, wish.width, wish.height, places, wish.simd, out);
-  });
+  at_once = cpu_.draw_places(geometry, view, wish.width, wish.height, places, wish.simd, out);
   if (!at_once) return tl::unexpected(at_once.error());
   return *at_once ? Expected<void>() : draw_one_by_one(geometry, view, places, wish, out, stop);
 }

@@ -53,7 +53,6 @@ public:
     int width = 0;
     int height = 0;
     bool with_depth = false;
-    int threads = 0;  ///< 0: all
     SimdLevel simd = SimdLevel::automatic;
   };
   /// Fills raster_ms and readback_ms too.

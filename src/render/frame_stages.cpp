@@ -1,6 +1,5 @@
 // The stages of a frame: ids, points, ambient occlusion, lights, colours.
 #include <algorithm>
-#include <cstring>
 
 #include "base/fail.h"
 #include "base/stopwatch.h"
@@ -44,7 +43,6 @@ Expected<void> Renderer::State::find_ids(const FrameInput& input, const RenderSe
   const FrameRaster::Wish wish{.width = settings.width,
                                .height = settings.height,
                                .with_depth = settings.samples == SampleSource::depth,
-                               .threads = settings.threads,
                                .simd = settings.hard.simd};
   return raster.draw(input.geometry, input.view, wish, seen, timings);
 }
@@ -65,12 +63,14 @@ void Renderer::State::find_points(const FrameInput& input, const std::vector<Dra
   const PointLayout layout = !tiled      ? PointLayout::rows
                              : positions ? PointLayout::rows_and_tiles
                                          : PointLayout::tiles;
-  with_threads(settings.threads, [&] {
-    if (!exact) return points_from_depth(input.view);
-    if (lifts_points(settings)) return find_lifted_points(input, layout, shaded);
+  if (!exact) {
+    points_from_depth(input.view);
+  } else if (lifts_points(settings)) {
+    find_lifted_points(input, layout, shaded);
+  } else {
     compute_visible_points(seen.ids, seen.width, seen.height, input.view, triangles, points, layout);
     if (shaded) compute_shading_normals(points, input.geometry.normals, input.view, triangles, normals);
-  });
+  }
   timings.points_ms = watch.lap_ms();
 }
 
@@ -99,9 +99,7 @@ Expected<void> Renderer::State::occlude_ambient(const FrameInput& input, const R
                                                 FrameResult& result, const AoProgress& progress,
                                                 const StopFlag* stop) {
   Expected<void> done;
-  with_threads(settings.threads, [&] {
-    done = ambient.compute(scene, input.geometry, points, normals, settings.ao, openness, progress, stop);
-  });
+  done = ambient.compute(scene, input.geometry, points, normals, settings.ao, openness, progress, stop);
   if (!done) return done;
   result.ao = ambient.stats();
   result.timings.ao_build_ms = ambient.timings().ao_build_ms;
@@ -118,10 +116,8 @@ Expected<void> Renderer::State::trace_hard(const FrameInput& input, const DrawnL
   config.count_pixel_nodes = settings.diagnostics;
   const TriangleView triangles = traced_triangles(input, light, settings);
   bool done = false;
-  with_threads(settings.threads, [&] {
-    done = hard.trace_shadow_mask(points, input.view, triangles, shadow_light(light.light, light.placed),
-                                  config, hard_mask, stop);
-  });
+  done = hard.trace_shadow_mask(points, input.view, triangles, shadow_light(light.light, light.placed),
+                                config, hard_mask, stop);
   if (!done) return base::fail("stopped");
   result.methods.push_back({light.number, hard.ran()});
   result.stats += hard.stats();
@@ -186,29 +182,37 @@ Expected<void> Renderer::State::trace_lights(const FrameInput& input, const std:
 }
 
 /// The colours behind the picture.
-void Renderer::State::keep_linear(const RenderSettings& settings, FrameResult& result) const {
+Expected<void> Renderer::State::keep_linear(const RenderSettings& settings, FrameResult& result) const {
   result.linear = {};
   result.linear_mean = {};
   result.seen.clear();
-  const auto all = [&] {
-    base::ImageF linear{seen.width, seen.height, 3, std::vector<float>(3 * colors.size())};
-    std::memcpy(linear.pixels.data(), colors.data(), sizeof(float) * linear.pixels.size());
-    return linear;
-  };
-  if (settings.linear_mean) result.linear_mean = all();
-  if (!settings.linear) return;
-  result.linear = all();
+  if (settings.linear_mean) {
+    if (auto copied = shading->copy_linear(result.linear_mean); !copied) return copied;
+  }
+  if (!settings.linear) return {};
   for (const std::uint32_t id : seen.ids) result.seen.push_back(id != no_triangle ? 1 : 0);
+  return shading->copy_linear(result.linear);
+}
+
+Expected<void> Renderer::State::begin_shading(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                                              const RenderSettings& settings) {
+  const shade::Lighting lighting{lights, scene.ambient_light, scene.background,
+                                 environment ? &*environment : nullptr};
+  return shading->begin({{input.geometry, input.view, surfaces, lifts_points(settings)},
+                         lighting,
+                         display_of(settings),
+                         seen.width,
+                         seen.height,
+                         seen.ids,
+                         needs_colors(settings)});
 }
 
 Expected<void> Renderer::State::shade_pixels(const FrameInput& input, const std::vector<DrawnLight>& lights,
                                              const RenderSettings& settings, FrameResult& result,
                                              const StopFlag* stop) {
-  std::vector<shade::PlacedLight> placed;
   std::vector<shade::LightFactors> factors(lights.size());
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const DrawnLight& light = lights[i];
-    placed.push_back({light.light, light.placed, light.area ? &*light.area : nullptr});
     if (light.area) {
       factors[i].irradiance = irradiance[i];
     } else if (settings.shadows != ShadowMode::none) {
@@ -220,23 +224,14 @@ Expected<void> Renderer::State::shade_pixels(const FrameInput& input, const std:
     tints[i].set(result.masks[i].tint);
     factors[i].tint = tints[i].factors();
   }
-  const shade::Subject subject{input.geometry, input.view, surfaces, lifts_points(settings)};
-  const shade::Lighting lighting{placed, scene.ambient_light, scene.background,
-                                 environment ? &*environment : nullptr};
   shade::PixelSamples pixels{seen.width, seen.height, seen.ids, factors, {}};
   if (settings.ao.mode != AoMode::none) pixels.openness = openness;
-  if (!needs_colors(settings)) colors.clear();
-  with_threads(settings.threads, [&] {
-    shade::shade_picture(subject, lighting, pixels, display_of(settings), result.image,
-                         needs_colors(settings) ? &colors : nullptr);
-  });
+  if (auto done = shading->shade_centres(pixels, result.image); !done) return done;
   fill_aovs(input, lights, settings, factors, result);
-  if (auto drawn = draw_see_through(input, lights, subject, lighting, pixels, settings, result, stop); !drawn)
-    return drawn;
-  keep_linear(settings, result);
+  if (auto drawn = draw_see_through(input, lights, pixels, settings, result, stop); !drawn) return drawn;
+  if (auto kept = keep_linear(settings, result); !kept) return kept;
   const SamplePattern pattern = sample_pattern(settings.antialias);
-  return antialias(input, lights, settings, {subject, lighting, pixels, result.masks, pattern.offsets},
-                   result, stop);
+  return antialias(input, lights, settings, {pixels, result.masks, pattern.offsets}, result, stop);
 }
 
 void Renderer::State::keep_new(std::vector<std::string>& notes) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include <tenebra/threads.h>
 #include "base/fail.h"
 #include "base/stopwatch.h"
 #include "render/antialias/pattern.h"
@@ -116,16 +117,23 @@ std::optional<glm::dvec3> Renderer::visible_point(const FrameInput& input, int x
   return s.points.positions[pixel];
 }
 
+Expected<void> Renderer::render_frame(const FrameInput& input, const RenderSettings& settings,
+                                      FrameResult& result, const AoProgress& progress, const StopFlag* stop) {
+  Expected<void> drawn;
+  with_threads(settings.threads, [&] { drawn = state_->render(input, settings, result, progress, stop); });
+  return drawn;
+}
+
 // Olsson and Assarsson 2011, section 3.1: (1) rasterise; (2) rays and their hierarchy from what is seen;
 // (3) triangles through the hierarchy; (4) blocked pixels lose the light; (5) add it up. The paper draws the
 // light of (1) into buffers that (4) and (5) read; here it is computed where it is added, in one pass over
 // all lights. Soft shadows put groups of what is seen and the light's visible parts in the place of (2) to
 // (4).
-Expected<void> Renderer::render_frame(const FrameInput& given, const RenderSettings& settings,
-                                      FrameResult& result, const AoProgress& progress, const StopFlag* stop) {
-  State& s = *state_;
-  ++s.frames_begun;
-  const FrameInput& input = s.cast_as(settings.see_through, given);
+Expected<void> Renderer::State::render(const FrameInput& given, const RenderSettings& settings,
+                                       FrameResult& result, const AoProgress& progress,
+                                       const StopFlag* stop) {
+  ++frames_begun;
+  const FrameInput& input = cast_as(settings.see_through, given);
   result.masks.clear();
   result.methods.clear();
   result.notes.clear();
@@ -134,30 +142,31 @@ Expected<void> Renderer::render_frame(const FrameInput& given, const RenderSetti
   result.soft = {};
   result.ao = {};
   result.antialias = {};
-  s.groups_changed = false;
+  groups_changed = false;
   FrameTimings& timings = result.timings;
   base::Stopwatch watch, whole;
   if (auto checked = check_settings(settings); !checked) return checked;
-  if (auto checked = s.raster.check_picture_size(settings.width, settings.height); !checked) return checked;
+  if (auto checked = raster.check_picture_size(settings.width, settings.height); !checked) return checked;
   if (auto checked = check_ids(input.ids, settings); !checked) return checked;
-  const auto lights = render::drawn_lights(s.scene, input, settings, result.notes);
+  auto lights = render::drawn_lights(scene, input, settings, result.notes);
   if (!lights) return tl::unexpected(lights.error());
-  s.drawn = *lights;
+  drawn = std::move(*lights);
 
-  if (auto drawn = s.find_ids(input, settings, timings); !drawn) return drawn;
+  if (auto found = find_ids(input, settings, timings); !found) return found;
+  if (auto begun = begin_shading(input, drawn, settings); !begun) return begun;
   const bool occlusion = settings.ao.mode != AoMode::none;
-  const bool shadows = settings.shadows != ShadowMode::none && !lights->empty();
-  if (shadows || occlusion) s.find_points(input, *lights, settings, timings);
+  const bool shadows = settings.shadows != ShadowMode::none && !drawn.empty();
+  if (shadows || occlusion) find_points(input, drawn, settings, timings);
   if (occlusion) {
-    if (auto done = s.occlude_ambient(input, settings, result, progress, stop); !done) return done;
+    if (auto done = occlude_ambient(input, settings, result, progress, stop); !done) return done;
   }
-  if (auto traced = s.trace_lights(input, *lights, settings, result, stop); !traced) return traced;
+  if (auto traced = trace_lights(input, drawn, settings, result, stop); !traced) return traced;
   watch.lap_ms();
-  if (auto shaded = s.shade_pixels(input, *lights, settings, result, stop); !shaded) return shaded;
+  if (auto shaded = shade_pixels(input, drawn, settings, result, stop); !shaded) return shaded;
   timings.composite_ms = watch.lap_ms() - timings.layer_ms - timings.antialias_ms;
   timings.total_ms = whole.lap_ms();
-  s.note_changed_groups(settings.soft, result.notes);
-  s.keep_new(result.notes);
+  note_changed_groups(settings.soft, result.notes);
+  keep_new(result.notes);
   return {};
 }
 

@@ -21,10 +21,9 @@
 #include "render/aovs.h"
 #include "render/frame_raster.h"
 #include "shade/display.h"
+#include "shade/light_terms.h"
 
 namespace tenebra::render {
-
-struct DrawnLight;  // render/frame_lights.h
 
 enum class ShadowMode { none, hard, soft };
 
@@ -176,7 +175,7 @@ public:
   /// Of the last frame: the triangle that each pixel sees, row 0 at the top, and the lights that it drew:
   /// what explain_pixel asks for.
   std::span<const std::uint32_t> triangle_ids() const;
-  const std::vector<DrawnLight>& drawn_lights() const;
+  const std::vector<shade::DrawnLight>& drawn_lights() const;
 
   /// What the driver complained about since the last call (contexts made with ContextOptions::debug).
   std::vector<std::string> take_debug_messages();

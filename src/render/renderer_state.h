@@ -2,18 +2,21 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <unordered_set>
 #include <vector>
 
 #include "render/antialias/edge_samples.h"
+#include "render/antialias/mask_means.h"
 #include "render/antialias/pixel_choice.h"
-#include "render/antialias/sample_means.h"
 #include "render/antialias/sample_picture.h"
 #include "render/antialias/shading_list.h"
+#include "render/cpu_shading.h"
 #include "render/frame_lights.h"
 #include "render/frame_raster.h"
+#include "render/frame_shading.h"
 #include "render/light_points.h"
 #include "render/lit_samples.h"
 #include "render/renderer.h"
@@ -74,9 +77,10 @@ struct Renderer::State {
   EyeTint eye_tint{};
   TintMask passes{};
 
+  std::unique_ptr<FrameShading> shading = std::make_unique<CpuShading>();
+
   // Of anti-aliasing.
-  std::vector<glm::vec3> colors{};  // linear, of the pixels' centres; empty without
-  visibility::PlaceIds further{};   // what pixels see at the places of further samples
+  visibility::PlaceIds further{};  // what pixels see at the places of further samples
   SamplePicture samples{};
   LitSamples at_samples{}, layer_at_samples{}, own_soft{}, own_hard{};
   EdgeSamples edges{};
@@ -87,6 +91,9 @@ struct Renderer::State {
   ShadingList listed{};
   std::vector<shade::ShadedSample> shaded{};
 
+  /// As Renderer::render_frame, with the settings' threads.
+  Expected<void> render(const FrameInput& given, const RenderSettings& settings, FrameResult& result,
+                        const AoProgress& progress, const StopFlag* stop);
   /// What each pixel sees.
   Expected<void> find_ids(const FrameInput& input, const RenderSettings& settings, FrameTimings& timings);
   /// Visible points and, for lights with an area and occlusion, their normals.
@@ -131,7 +138,7 @@ struct Renderer::State {
   Expected<void> trace_side(const AreaTask& task, const DrawnLight& light, AreaSide& out);
   /// The same for both sides of a light that shines alike in every direction (soft/light/even_emission.h).
   Expected<void> trace_area(const AreaTask& task, const DrawnLight& light, AreaSide& out);
-  void keep_linear(const RenderSettings& settings, FrameResult& result) const;
+  Expected<void> keep_linear(const RenderSettings& settings, FrameResult& result) const;
   /// What settings.aovs asks for (aov_stages.cpp); `factors`: how much of each light reaches the centres.
   void fill_aovs(const FrameInput& input, const std::vector<DrawnLight>& lights,
                  const RenderSettings& settings, std::span<const shade::LightFactors> factors,
@@ -146,7 +153,6 @@ struct Renderer::State {
   }
   /// The nearest see-through surfaces, shaded like any, over the picture.
   Expected<void> draw_see_through(const FrameInput& input, const std::vector<DrawnLight>& lights,
-                                  const shade::Subject& subject, const shade::Lighting& lighting,
                                   const shade::PixelSamples& opaque, const RenderSettings& settings,
                                   FrameResult& result, const StopFlag* stop);
   /// `input`, or a copy whose see-through surfaces cast as the settings say.
@@ -154,14 +160,14 @@ struct Renderer::State {
   shade::Display display_of(const RenderSettings& settings) const {
     return {settings.exposure, settings.tone, scene.transfer};
   }
+  Expected<void> begin_shading(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                               const RenderSettings& settings);
   /// The picture, from all of the above.
   Expected<void> shade_pixels(const FrameInput& input, const std::vector<DrawnLight>& lights,
                               const RenderSettings& settings, FrameResult& result, const StopFlag* stop);
 
   /// What anti-aliasing starts from (antialias_stages.cpp).
   struct SampleFrame {
-    const shade::Subject& subject;
-    const shade::Lighting& lighting;
     const shade::PixelSamples& pixels;
     std::span<const LightMask> masks;  // of each light, if there are shadows
     std::span<const glm::vec2> offsets;
@@ -179,9 +185,9 @@ struct Renderer::State {
   Expected<void> add_samples(const FrameInput& input, const std::vector<DrawnLight>& lights,
                              const RenderSettings& settings, const SampleFrame& frame,
                              const ChosenPixels& chosen, std::size_t shared, std::size_t place,
-                             SampleMeans& means, const StopFlag* stop);
-  void add_contrasts(const RenderSettings& settings, const SampleFrame& frame,
-                     std::span<const std::uint32_t> chosen, std::size_t first, SampleMeans& means);
+                             MaskMeans& means, const StopFlag* stop);
+  Expected<void> add_contrasts(const RenderSettings& settings, const SampleFrame& frame,
+                               std::span<const std::uint32_t> chosen, std::size_t first);
   CentreShadows centre_shadows(const SampleFrame& frame) const;
   static bool shares_masks(const std::vector<DrawnLight>& lights, const RenderSettings& settings);
   std::size_t part_edges(const FrameInput& input, const std::vector<DrawnLight>& lights,
@@ -195,12 +201,11 @@ struct Renderer::State {
                              const RenderSettings& settings, const EdgeTask& task, const StopFlag* stop);
   Expected<void> add_shared(const FrameInput& input, const std::vector<DrawnLight>& lights,
                             const RenderSettings& settings, const SampleFrame& frame,
-                            std::span<const std::uint32_t> chosen, std::size_t first, SampleMeans& means,
-                            const StopFlag* stop);
+                            std::span<const std::uint32_t> chosen, std::size_t first, const StopFlag* stop);
   Expected<void> add_edges(const FrameInput& input, const std::vector<DrawnLight>& lights,
                            const RenderSettings& settings, const SampleFrame& frame,
                            std::span<const std::uint32_t> chosen, std::size_t first, std::size_t place,
-                           SampleMeans& means, const StopFlag* stop);
+                           MaskMeans& means, const StopFlag* stop);
   Expected<void> light_packed(const FrameInput& input, const std::vector<DrawnLight>& lights,
                               const RenderSettings& settings, const SampleFrame& frame,
                               std::span<const std::uint32_t> chosen, const StopFlag* stop);
@@ -209,11 +214,18 @@ struct Renderer::State {
   Expected<void> light_sparsely(const FrameInput& input, const std::vector<DrawnLight>& lights,
                                 const RenderSettings& settings, const EdgeTask& task, const StopFlag* stop);
   void borrow_soft(const FrameInput& input);
-  void shade_list(const RenderSettings& settings, const shade::Subject& subject,
-                  const shade::Lighting& lighting, const SampleLights& lit, float texture_px);
+  /// Shades `listed`, whose `from` are places in `lit`, and adds it to chosen pixels from `first` on.
+  Expected<void> add_listed(const SampleLights& lit, float texture_px, std::size_t first);
+  /// The same behind glass.
+  Expected<void> add_behind_glass(const FrameInput& input, const std::vector<DrawnLight>& lights,
+                                  const RenderSettings& settings, const SampleLights& lit, std::size_t first,
+                                  const StopFlag* stop);
+  /// Lays see-through surfaces before packed samples over their colours, `shaded`.
   Expected<void> layer_packed(const FrameInput& input, const std::vector<DrawnLight>& lights,
-                              const RenderSettings& settings, const shade::Subject& subject,
-                              const shade::Lighting& lighting, const StopFlag* stop);
+                              const RenderSettings& settings, const StopFlag* stop);
+  SampleShares shares_of_listed(std::size_t first) const {
+    return {first, listed.pixels, listed.shares, listed.centres};
+  }
 
   /// Drops the notes that earlier frames gave.
   void keep_new(std::vector<std::string>& notes);

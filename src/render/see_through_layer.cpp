@@ -35,10 +35,11 @@ SurfacePlace place_of(const SeeThroughSurfaces& surfaces, const TriangleView& tr
           between(surfaces.colors, glm::vec4(1.0f))};
 }
 
-std::vector<shade::ShadedSample> shaded(const LayerPicture& picture, std::span<const std::uint32_t> ids,
-                                        std::span<const shade::LightFactors> factors,
-                                        std::span<const float> openness,
-                                        std::span<const std::uint32_t> pixels) {
+Expected<std::vector<shade::ShadedSample>> shaded(const LayerPicture& picture, FrameShading& shading,
+                                                  std::span<const std::uint32_t> ids,
+                                                  std::span<const shade::LightFactors> factors,
+                                                  std::span<const float> openness,
+                                                  std::span<const std::uint32_t> pixels) {
   const auto width = static_cast<std::uint32_t>(picture.opaque.width);
   std::vector<std::uint32_t> own_ids;
   std::vector<glm::vec2> places;
@@ -53,7 +54,8 @@ std::vector<shade::ShadedSample> shaded(const LayerPicture& picture, std::span<c
   const GatheredFactors gathered(factors, pixels);
   const auto own = gathered.factors();
   std::vector<shade::ShadedSample> out;
-  shade_samples(picture.subject, picture.lighting, {own_ids, places, own, open}, out);
+  if (auto done = shading.shade_samples({own_ids, places, own, open}, out); !done)
+    return tl::unexpected(done.error());
   return out;
 }
 
@@ -88,22 +90,23 @@ bool EyeTint::trace(const VisiblePoints& opaque, const LitSamples& layer, const 
   return true;
 }
 
-std::vector<glm::vec3> layer_colors(const LayerPicture& picture) {
+Expected<std::vector<glm::vec3>> layer_colors(const LayerPicture& picture, FrameShading& shading) {
   const std::span<const std::uint32_t> pixels = picture.passes.pixels;
   const auto behind =
-      shaded(picture, picture.opaque.ids, picture.opaque.factors, picture.opaque.openness, pixels);
-  const auto before = shaded(picture, picture.layer.points.triangles, picture.layer.factors(),
+      shaded(picture, shading, picture.opaque.ids, picture.opaque.factors, picture.opaque.openness, pixels);
+  if (!behind) return tl::unexpected(behind.error());
+  const auto before = shaded(picture, shading, picture.layer.points.triangles, picture.layer.factors(),
                              picture.layer.openness, pixels);
-  const TriangleView triangles = triangle_view(picture.subject.geometry);
+  if (!before) return tl::unexpected(before.error());
   std::vector<glm::vec3> colors(pixels.size());
   parallel::parallel_ranges(pixels.size(), 1024, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const std::uint32_t pixel = pixels[i], id = picture.layer.points.triangles[pixel];
-      colors[i] = behind[i].color * picture.passes.factors[i];
+      colors[i] = (*behind)[i].color * picture.passes.factors[i];
       if (id == no_triangle) continue;
       const SurfacePlace place =
-          place_of(picture.surfaces, triangles, id, picture.layer.points.positions[pixel]);
-      colors[i] += before[i].color *
+          place_of(picture.surfaces, picture.triangles, id, picture.layer.points.positions[pixel]);
+      colors[i] += (*before)[i].color *
                    texture::shown_share(*picture.surfaces.scene, place.material, place.uv, place.vertex);
     }
   });

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <tenebra/tint.h>
+#include "render/frame_shading.h"
 #include "render/lit_samples.h"
 #include "shade/shading.h"
 
@@ -32,8 +33,7 @@ private:
 /// the nearest surface reflects. Surfaces behind that one let through what they let through, but what they
 /// reflect is left out.
 struct LayerPicture {
-  const shade::Subject& subject;
-  const shade::Lighting& lighting;
+  const TriangleView& triangles;
   const shade::PixelSamples& opaque;
   std::span<const glm::vec2> places;  ///< in the window, by pixel of `opaque`; empty: the pixels' centres
   const LitSamples& layer;
@@ -41,6 +41,6 @@ struct LayerPicture {
   const TintMask& passes;
 };
 /// Linear colours of the pixels that `passes` names, in their order.
-std::vector<glm::vec3> layer_colors(const LayerPicture& picture);
+Expected<std::vector<glm::vec3>> layer_colors(const LayerPicture& picture, FrameShading& shading);
 
 }  // namespace tenebra::render

@@ -32,12 +32,10 @@ Expected<void> Renderer::State::trace_tint(const FrameInput& input, const DrawnL
   config.same_surfaces = std::exchange(tint_has_surfaces, true);
   if (settings.samples == SampleSource::depth) config.contact = ContactRule::none;
   bool done = true;
-  with_threads(settings.threads, [&] {
-    done = light.area ? tint.trace(at, shading_normals, input.view, triangles, surfaces, *light.area,
-                                   soft_lit, config, out, stop)
-                      : tint.trace(at, input.view, triangles, surfaces,
-                                   shadow_light(light.light, light.placed), mask, config, out, stop);
-  });
+  done = light.area ? tint.trace(at, shading_normals, input.view, triangles, surfaces, *light.area, soft_lit,
+                                 config, out, stop)
+                    : tint.trace(at, input.view, triangles, surfaces, shadow_light(light.light, light.placed),
+                                 mask, config, out, stop);
   return done ? Expected<void>() : Expected<void>(base::fail("stopped"));
 }
 
@@ -52,14 +50,12 @@ const VisiblePoints& Renderer::State::lit_points(const FrameInput& input, const 
   to.triangles = from.triangles;
   to.positions.resize(from.positions.size());
   to.tiles.clear();
-  with_threads(settings.threads, [&] {
-    parallel::parallel_ranges(to.triangles.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i)
-        if (to.triangles[i] != no_triangle) to.positions[i] = from.positions[i];
-    });
-    lift_visible_points(input.view, smooth, to);
-    points::make_point_tiles(to, input.view, smooth, *to.tiles);
+  parallel::parallel_ranges(to.triangles.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      if (to.triangles[i] != no_triangle) to.positions[i] = from.positions[i];
   });
+  lift_visible_points(input.view, smooth, to);
+  points::make_point_tiles(to, input.view, smooth, *to.tiles);
   return to;
 }
 
@@ -83,13 +79,11 @@ Expected<void> Renderer::State::light_samples(const FrameInput& input, const std
       continue;
     }
     bool done = false;
-    with_threads(settings.threads, [&] {
-      HardShadowConfig config = settings.hard;
-      config.contact = ContactRule::triangle_ids;
-      done = hard.trace_shadow_mask(lit_at, input.view, traced_triangles(input, lights[i], settings),
-                                    shadow_light(lights[i].light, lights[i].placed), config, samples.masks[i],
-                                    stop);
-    });
+    HardShadowConfig config = settings.hard;
+    config.contact = ContactRule::triangle_ids;
+    done = hard.trace_shadow_mask(lit_at, input.view, traced_triangles(input, lights[i], settings),
+                                  shadow_light(lights[i].light, lights[i].placed), config, samples.masks[i],
+                                  stop);
     if (!done) return base::fail("stopped");
     if (!coloured) continue;
     TintMask found;
@@ -103,57 +97,44 @@ Expected<void> Renderer::State::light_samples(const FrameInput& input, const std
   }
   if (settings.ao.mode == AoMode::none || without_areas) return {};
   Expected<void> done;
-  with_threads(settings.threads, [&] {
-    done = ambient.compute(scene, input.geometry, lit_at, samples.normals, settings.ao, samples.openness, {},
-                           stop);
-  });
+  done = ambient.compute(scene, input.geometry, lit_at, samples.normals, settings.ao, samples.openness, {},
+                         stop);
   return done;
 }
 
-Expected<void> Renderer::State::draw_see_through(
-    const FrameInput& input, const std::vector<DrawnLight>& lights, const shade::Subject& subject,
-    const shade::Lighting& lighting, const shade::PixelSamples& opaque, const RenderSettings& settings,
-    FrameResult& result, const StopFlag* stop) {
+Expected<void> Renderer::State::draw_see_through(const FrameInput& input,
+                                                 const std::vector<DrawnLight>& lights,
+                                                 const shade::PixelSamples& opaque,
+                                                 const RenderSettings& settings, FrameResult& result,
+                                                 const StopFlag* stop) {
   if (!seen.has_layer) return {};
   base::Stopwatch watch;
   if (std::all_of(seen.layer.begin(), seen.layer.end(), [](std::uint32_t id) { return id == no_triangle; }))
     return {};
   const TriangleView triangles = triangle_view(input.geometry);
-  with_threads(settings.threads, [&] {
-    compute_visible_points(seen.layer, seen.width, seen.height, input.view, triangles, layer.points,
-                           PointLayout::rows_and_tiles);
-    compute_shading_normals(layer.points, input.geometry.normals, input.view, triangles, layer.normals);
-  });
+  compute_visible_points(seen.layer, seen.width, seen.height, input.view, triangles, layer.points,
+                         PointLayout::rows_and_tiles);
+  compute_shading_normals(layer.points, input.geometry.normals, input.view, triangles, layer.normals);
   if (auto lit = light_samples(input, lights, settings, LightKinds::all, layer, stop); !lit) return lit;
   const SeeThroughSurfaces surfaces = see_through_surfaces(scene, input.geometry, coordinates);
-  bool done = true;
-  with_threads(settings.threads, [&] {
-    // The points that shadows start from may be those of the depth buffer, lifted ones, or none.
-    const bool found =
-        settings.ao.mode != AoMode::none || (settings.shadows != ShadowMode::none && !lights.empty());
-    const bool there = found && settings.samples == SampleSource::ids && !lifts_points(settings);
-    if (!there) {
-      ids_behind.resize(seen.ids.size());
-      parallel::parallel_ranges(ids_behind.size(), 1 << 16, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-          ids_behind[i] = seen.layer[i] == no_triangle ? no_triangle : seen.ids[i];
-      });
-      compute_visible_points(ids_behind, seen.width, seen.height, input.view, triangles, behind,
-                             PointLayout::rows_and_tiles);
-    }
-    done = eye_tint.trace(there ? points : behind, layer, input.view, triangles, surfaces, passes, stop);
-    if (!done) return;
-    const auto drawn = layer_colors({subject, lighting, opaque, {}, layer, surfaces, passes});
-    const shade::Display display = display_of(settings);
-    parallel::parallel_ranges(drawn.size(), 1024, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) {
-        const std::size_t pixel = passes.pixels[i];
-        if (!colors.empty()) colors[pixel] = drawn[i];
-        encode_shown(display, shown(display, drawn[i]), &result.image.pixels[3 * pixel]);
-      }
+  // The points that shadows start from may be those of the depth buffer, lifted ones, or none.
+  const bool found =
+      settings.ao.mode != AoMode::none || (settings.shadows != ShadowMode::none && !lights.empty());
+  const bool there = found && settings.samples == SampleSource::ids && !lifts_points(settings);
+  if (!there) {
+    ids_behind.resize(seen.ids.size());
+    parallel::parallel_ranges(ids_behind.size(), 1 << 16, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i)
+        ids_behind[i] = seen.layer[i] == no_triangle ? no_triangle : seen.ids[i];
     });
-  });
-  if (!done) return base::fail("stopped");
+    compute_visible_points(ids_behind, seen.width, seen.height, input.view, triangles, behind,
+                           PointLayout::rows_and_tiles);
+  }
+  if (!eye_tint.trace(there ? points : behind, layer, input.view, triangles, surfaces, passes, stop))
+    return base::fail("stopped");
+  const auto drawn = layer_colors({triangles, opaque, {}, layer, surfaces, passes}, *shading);
+  if (!drawn) return tl::unexpected(drawn.error());
+  if (auto done = shading->replace_centres(passes.pixels, *drawn, result.image); !done) return done;
   result.timings.layer_ms = watch.lap_ms();
   return {};
 }

@@ -20,7 +20,7 @@ void put(const glm::vec3& value, SampleBlock::Channel (&channels)[3], std::size_
 FrameTerms::FrameTerms(const Subject& of, const Lighting& lit_by)
     : subject(of), lighting(lit_by), code(kernels(lit_by.simd)) {
   if (lighting.environment == nullptr) ambient_light = lighting.ambient_light;
-  for (const PlacedLight& light : lighting.lights) lights.push_back(light_terms(light, subject.view));
+  for (const DrawnLight& light : lighting.lights) lights.push_back(light_terms(light, subject.view));
   for (std::size_t i = 0; i < subject.surfaces.size(); ++i) {
     surfaces.push_back(subject.surfaces[i]);
     surfaces.back().ambient *= ambient_light;

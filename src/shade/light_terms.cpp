@@ -13,11 +13,11 @@ bool is_area(LightType type) {
 
 /// Intensity on the axis (with `area`: radiance) times colour, and 1/pi of the diffuse reflection for lights
 /// with units.
-glm::vec3 scaled_color(const PlacedLight& drawn) {
+glm::vec3 scaled_color(const DrawnLight& drawn) {
   const Light& light = drawn.light;
   glm::vec3 color = light.color * light.intensity;
   const float half_area = glm::length(glm::cross(drawn.placed.axis_x, drawn.placed.axis_y));
-  if (drawn.area != nullptr) {
+  if (drawn.area) {
     if (!is_area(light.type)) color /= static_cast<float>(drawn.area->area_m2);
   } else if (is_area(light.type)) {
     color *= (light.type == LightType::area_rect ? 4.0f : glm::pi<float>()) * half_area;
@@ -54,7 +54,7 @@ void set_polygon(const AreaLight& area, const ViewRays& view, LightTerms& terms)
 
 }  // namespace
 
-LightTerms light_terms(const PlacedLight& drawn, const ViewRays& view) {
+LightTerms light_terms(const DrawnLight& drawn, const ViewRays& view) {
   LightTerms terms;
   terms.color = scaled_color(drawn);
   terms.from_eye = drawn.placed.position - view.eye;
@@ -63,8 +63,8 @@ LightTerms light_terms(const PlacedLight& drawn, const ViewRays& view) {
   terms.spot = drawn.light.type == LightType::spot;
   if (terms.spot) terms.cone = cone_fade(drawn.light);
   terms.range_m = drawn.light.range_m.value_or(0.0f);
-  terms.by_irradiance = drawn.area != nullptr;
-  if (drawn.area != nullptr) set_polygon(*drawn.area, view, terms);
+  terms.by_irradiance = drawn.area.has_value();
+  if (drawn.area) set_polygon(*drawn.area, view, terms);
   terms.distance_power = power_of_distance(drawn.light, terms.by_irradiance);
   terms.cosine_emitter = is_area(drawn.light.type) && !terms.by_irradiance;
   return terms;

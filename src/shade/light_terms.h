@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 
 #include <tenebra/area_light.h>
@@ -12,12 +13,14 @@
 
 namespace tenebra::shade {
 
-/// A light of a frame, placed. `area`: it shines as this polygon, and its samples come with their
-/// irradiance; none: as a point, or from a direction.
-struct PlacedLight {
+/// A light that a frame draws.
+struct DrawnLight {
   Light light;
   WorldLight placed;
-  const AreaLight* area = nullptr;
+  std::optional<AreaLight> area{};  ///< it shines as this polygon: its samples come with their irradiance,
+                                    ///< its shadows are soft; none: as a point, or from a direction
+  std::optional<AreaLight> back{};  ///< shines alike in every direction: the polygon's other side
+  int number = -1;                  ///< its place in the frame's list of lights; emissive meshes follow them
 };
 
 /// The shares of a light's red, green and blue that see-through surfaces let pass at each sample; empty: all
@@ -58,6 +61,6 @@ struct LightTerms {
   std::array<glm::vec2, 14> corners{};  ///< along the axes, metres, counter-clockwise; of a sun at 1 m
   float radius_m = 0;                   ///< of the disc of the same area
 };
-LightTerms light_terms(const PlacedLight& light, const ViewRays& view);
+LightTerms light_terms(const DrawnLight& light, const ViewRays& view);
 
 }  // namespace tenebra::shade

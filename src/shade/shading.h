@@ -27,7 +27,7 @@ struct Subject {
 };
 
 struct Lighting {
-  std::span<const PlacedLight> lights;
+  std::span<const DrawnLight> lights;
   glm::vec3 ambient_light{1.0f};
   glm::vec3 background{0.0f};                ///< linear, where no triangle is seen
   const Environment* environment = nullptr;  ///< in place of ambient_light and background
@@ -76,7 +76,7 @@ void shade_picture(const Subject& subject, const Lighting& lighting, const Pixel
 ///   Range and cones fade as in KHR_lights_punctual. Area lights act as their centre: I = nits * area *
 ///   cos(angle from their axis), nothing behind them.
 /// - Falloff::none, no unit (BART): c * I cos(theta).
-/// With PlacedLight::area it is the same for each unit of the irradiance that light of radiance 1 sends to a
+/// With DrawnLight::area it is the same for each unit of the irradiance that light of radiance 1 sends to a
 /// point, whatever the sides: c / pi * L, with L = nits of an area light, I / area_m2 of the others.
 /// Falloff::none: c * I d^2 / area_m2 with the distance d to the light's centre, which a small light's
 /// irradiance, area cos cos' / d^2, makes c * I cos(theta) cos' again. Range and a spot's cone fade as seen

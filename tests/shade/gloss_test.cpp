@@ -73,7 +73,7 @@ dvec3 gltf_brdf(const Material& m, const dvec3& l, const dvec3& v, const dvec3& 
 
 TEST_F(Gloss, MetallicRoughnessIsThatOfGltf) {
   const Light lamp = make_light(LightType::point, 30.0f);
-  const std::vector<shade::PlacedLight> lights{{lamp, {.position = {1, 0.5f, -2}}}};
+  const std::vector<shade::DrawnLight> lights{{lamp, {.position = {1, 0.5f, -2}}}};
   const std::vector<shade::LightFactors> lit(1);
   for (const float roughness : {0.1f, 0.4f, 1.0f}) {
     for (const float metallic : {0.0f, 0.3f, 1.0f}) {
@@ -98,7 +98,7 @@ TEST_F(Gloss, MetallicRoughnessIsThatOfGltf) {
 // KHR_materials_transmission: what passes is taken from the diffuse part; the mirror image stays whole.
 TEST_F(Gloss, WhatPassesIsTakenFromWhatIsDiffuseAlone) {
   const Light lamp = make_light(LightType::point, 30.0f);
-  const std::vector<shade::PlacedLight> lights{{lamp, {.position = {1, 0.5f, -2}}}};
+  const std::vector<shade::DrawnLight> lights{{lamp, {.position = {1, 0.5f, -2}}}};
   const std::vector<shade::LightFactors> lit(1);
   const shade::Lighting lighting{.lights = lights, .ambient_light = glm::vec3(0.3f)};
   Material m = metal_or_not({0.9f, 0.5f, 0.2f}, 0, 0.3f);
@@ -129,7 +129,7 @@ TEST_F(Gloss, PhongsHighlightIsAPowerOfTheMirroredRaysCosine) {
   Material m = make_material({0.3f, 0.2f, 0.1f}, glm::vec3(0.0f));
   m.specular = {0.5f, 0.25f, 1.0f};
   const Light lamp = make_light(LightType::point, 0.7f, Falloff::none);
-  const std::vector<shade::PlacedLight> lights{{lamp, {.position = {1, 0.5f, -2}}}};
+  const std::vector<shade::DrawnLight> lights{{lamp, {.position = {1, 0.5f, -2}}}};
   const std::vector<shade::LightFactors> lit(1);
   for (const float exponent : {1.0f, 8.5f, 200.0f}) {
     m.phong_exponent = exponent;
@@ -155,10 +155,9 @@ TEST_F(Gloss, NothingIsMirroredOutOfTheShadow) {
   m.specular = glm::vec3(1.0f);
   const std::vector<std::uint8_t> dark(gloss_width * gloss_height, 0);
   const std::vector<shade::LightFactors> factors{{.mask = dark}};
-  const std::vector<shade::PlacedLight> in_front{
+  const std::vector<shade::DrawnLight> in_front{
       {make_light(LightType::point, 9.0f), {.position = {0, 0, -3}}}};
-  const std::vector<shade::PlacedLight> behind{
-      {make_light(LightType::point, 9.0f), {.position = {0, 0, -9}}}};
+  const std::vector<shade::DrawnLight> behind{{make_light(LightType::point, 9.0f), {.position = {0, 0, -9}}}};
   for (const Material& material : {m, metal_or_not(glm::vec3(1.0f), 1, 0.3f)}) {
     for (const auto& sample : shaded(material, {.lights = in_front, .ambient_light = {}}, factors))
       EXPECT_EQ(sample.color, glm::vec3(0.0f));
@@ -187,10 +186,10 @@ TEST_F(Gloss, SmallAreaLightsMirrorAsPoints) {
         static_cast<float>(polygon->area_m2 * at_light[i] * path.z / (square * std::sqrt(square))));
   }
   for (const Material& m : {phong, metal_or_not({0.9f, 0.5f, 0.2f}, 0.5f, 0.4f)}) {
-    const std::vector<shade::PlacedLight> point_light{
+    const std::vector<shade::DrawnLight> point_light{
         {make_light(LightType::point, 9.0f), {.position = place}}};
-    const std::vector<shade::PlacedLight> area_light{
-        {make_light(LightType::point, 9.0f), {.position = place}, &*polygon}};
+    const std::vector<shade::DrawnLight> area_light{
+        {make_light(LightType::point, 9.0f), {.position = place}, *polygon}};
     const std::vector<shade::LightFactors> lit(1), by_irradiance{{.irradiance = irradiance}};
     const auto expected = shaded(m, {.lights = point_light, .ambient_light = {}}, lit);
     const auto found = shaded(m, {.lights = area_light, .ambient_light = {}}, by_irradiance);
@@ -212,9 +211,9 @@ TEST_F(Gloss, WideLightsAreMirroredWide) {
     const auto polygon = make_rectangle_light({0, 0, -2}, {half, 0, 0}, {0, -half, 0});
     ASSERT_TRUE(polygon);
     std::vector<float> irradiance(gloss_width * gloss_height, 0.1f);
-    const std::vector<shade::PlacedLight> lights{{make_light(LightType::area_rect, 1.0f),
-                                                  {.position = {0, 0, -2}, .direction = {0, 0, -1}},
-                                                  &*polygon}};
+    const std::vector<shade::DrawnLight> lights{{make_light(LightType::area_rect, 1.0f),
+                                                 {.position = {0, 0, -2}, .direction = {0, 0, -1}},
+                                                 *polygon}};
     const std::vector<shade::LightFactors> factors{{.irradiance = irradiance}};
     const auto found =
         shaded(metal_or_not(glm::vec3(1.0f), 1, 0.2f), {.lights = lights, .ambient_light = {}}, factors);
@@ -344,8 +343,7 @@ TEST_F(Gloss, MirrorsShowTheEnvironmentBehindTheEye) {
 TEST_F(Gloss, UnlitSurfacesShowTheirColour) {
   Material m = make_material({0.3f, 0.2f, 0.1f});
   m.model = SurfaceModel::unlit;
-  const std::vector<shade::PlacedLight> lights{
-      {make_light(LightType::point, 9.0f), {.position = {0, 0, -3}}}};
+  const std::vector<shade::DrawnLight> lights{{make_light(LightType::point, 9.0f), {.position = {0, 0, -3}}}};
   for (const auto& sample : shaded(m, {.lights = lights}, std::vector<shade::LightFactors>(1))) {
     EXPECT_EQ(sample.color, m.base_color);
   }

@@ -48,7 +48,7 @@ glm::dvec3 expected_light(const Light& light, const WorldLight& placed, const Ma
 
 /// The light buffer of a view in which every pixel sees triangle `id`.
 base::ImageF buffer_of(const FrameGeometry& frame, const ViewRays& view, int w, int h, std::uint32_t id,
-                       const std::vector<Material>& materials, const shade::PlacedLight& light) {
+                       const std::vector<Material>& materials, const shade::DrawnLight& light) {
   const std::vector<std::uint32_t> ids(static_cast<std::size_t>(w * h), id);
   const shade::SurfaceTable surfaces(materials);
   base::ImageF image;
@@ -165,7 +165,7 @@ TEST_F(LightBufferTest, AreaBuffersTimesTheIrradianceOfASmallLightAreThoseOfItsC
       const base::ImageF point =
           buffer_of(g, perspective, buffer_width, buffer_height, 0, materials, {light, placed});
       const base::ImageF area =
-          buffer_of(g, perspective, buffer_width, buffer_height, 0, materials, {light, placed, &*polygon});
+          buffer_of(g, perspective, buffer_width, buffer_height, 0, materials, {light, placed, *polygon});
       int lit = 0;
       for (int i = 0; i < buffer_width * buffer_height; ++i) {
         const glm::dvec3 ray = glm::dvec3(perspective.d0) +

@@ -99,7 +99,7 @@ protected:
 };
 
 TEST_F(HalfPicture, SumsAmbientEmissiveAndLightsThroughTheirMasks) {
-  std::vector<shade::PlacedLight> lights;
+  std::vector<shade::DrawnLight> lights;
   const float intensities[3] = {0.5f, 0.25f, 1.0f};
   for (const float intensity : intensities)
     lights.push_back({make_light(LightType::directional, intensity, Falloff::none), {}});
@@ -134,9 +134,8 @@ TEST_F(HalfPicture, AreaLightsCountByTheirIrradianceAndOpennessByTheAmbientTermO
   }
   const auto polygon = make_rectangle_light({0, 0, 0}, {0.5f, 0, 0}, {0, 0.5f, 0});
   ASSERT_TRUE(polygon);
-  const std::vector<shade::PlacedLight> lights{
-      {make_light(LightType::area_rect, 2.0f), {}, &*polygon},
-      {make_light(LightType::directional, 0.25f, Falloff::none), {}}};
+  const std::vector<shade::DrawnLight> lights{{make_light(LightType::area_rect, 2.0f), {}, *polygon},
+                                              {make_light(LightType::directional, 0.25f, Falloff::none), {}}};
   const std::vector<shade::LightFactors> factors{{.irradiance = irradiance}, {}};
   const shade::Lighting lighting{lights, {0.5f, 1.0f, 0.25f}, {0.9f, 0.0f, 0.4f}};
   for (const bool open : {true, false}) {
@@ -168,7 +167,7 @@ TEST_F(HalfPicture, NegativeAmbientMeansTheBaseColour) {
 // Samples in any order and number are those of the picture: their places say where they are.
 TEST_F(HalfPicture, SamplesHaveTheColoursOfTheirPixels) {
   const Light lamp = make_light(LightType::point, 40.0f);
-  const std::vector<shade::PlacedLight> lights{{lamp, {.position = {-3, 1, -2}}}};
+  const std::vector<shade::DrawnLight> lights{{lamp, {.position = {-3, 1, -2}}}};
   std::vector<float> openness(ids.size());
   for (std::size_t i = 0; i < openness.size(); ++i) openness[i] = static_cast<float>(i % 7) / 7.0f;
   const shade::Lighting lighting{lights, {0.5f, 1.0f, 0.25f}, {0.9f, 0.0f, 0.4f}};

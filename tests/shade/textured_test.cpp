@@ -226,7 +226,7 @@ TEST_F(Textured, AllVectorLevelsAndThreadCountsGiveTheSameBits) {
   base::ImageF sky{7, 4, 3, {}};
   for (int i = 0; i < 84; ++i) sky.pixels.push_back(0.01f * static_cast<float>(i));
   const shade::Environment environment(sky);
-  const std::vector<shade::PlacedLight> lights{
+  const std::vector<shade::DrawnLight> lights{
       {make_light(LightType::point, 900.0f), {.position = {1, 5, -12}}},
       {make_light(LightType::directional, 0.5f), {.direction = glm::normalize(glm::vec3(1, -2, 0.5f))}}};
   const std::vector<shade::LightFactors> factors(2);

@@ -40,6 +40,12 @@ struct ChosenPixels {
   std::vector<std::uint32_t> contrasts;
 
   std::size_t count() const { return edges.size() + contrasts.size(); }
+  /// The edges, then the contrasts.
+  std::vector<std::uint32_t> all() const {
+    std::vector<std::uint32_t> out(edges);
+    out.insert(out.end(), contrasts.begin(), contrasts.end());
+    return out;
+  }
 };
 
 /// Levels of 255 by which a channel of two neighbours on one surface may differ. The change that one sample
