@@ -16,7 +16,8 @@ using Parts = std::map<std::pair<std::uint32_t, bool>, Part>;  ///< by material 
 const std::vector<glm::vec3>& rest_positions(const Mesh& mesh) {
   return mesh.shapes.empty() ? mesh.positions : mesh.shapes[0].positions;
 }
-/// Of unit length as glTF wants them, or zero; BART's triangles have some of other lengths.
+/// The normals at rest, of unit length as glTF wants them, or zero; BART's triangles have some of other
+/// lengths.
 std::vector<glm::vec3> rest_normals(const Mesh& mesh) {
   std::vector<glm::vec3> normals = mesh.shapes.empty() ? mesh.normals : mesh.shapes[0].normals;
   for (glm::vec3& n : normals) {

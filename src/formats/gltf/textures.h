@@ -16,7 +16,7 @@ public:
   /// What a texture of a material is: `info` says which and by which coordinates. No map where its picture
   /// cannot be read.
   TextureMap map(const tinygltf::TextureInfo& info, const std::string& place);
-  /// The same, where an extension has it as its member `name`; no map without one.
+  /// The texture that an extension has as its member `name`; no map without one.
   TextureMap map(const Value& extension, const char* name, const std::string& place);
 
 private:

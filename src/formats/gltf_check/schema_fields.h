@@ -31,7 +31,7 @@ struct Field {
   std::span<const Field> fields{};  ///< object, objects
 };
 
-/// Of the whole file.
+/// The fields of the file's root.
 std::span<const Field> root_fields();
 
 }  // namespace tenebra::formats::schema

@@ -24,7 +24,7 @@ public:
   /// in its folders textures and TextureFiles, then in the texture paths; there also by the last part of a
   /// name with folders. `place` says in the warning where the name stands.
   int find(const std::string& name, const std::string& place);
-  /// The same for a URI of a glTF file: percent-encoded, never by its last part alone.
+  /// The picture that a URI of a glTF file names: percent-encoded, never by its last part alone.
   int find_uri(const std::string& uri, const std::string& place);
   /// A picture whose bytes are at hand.
   int add(std::string_view bytes, const std::string& name);
