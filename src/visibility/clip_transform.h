@@ -15,9 +15,9 @@ namespace tenebra::visibility {
 /// Smallest box around all finite positions of a frame.
 math::Box<float> bounds_of(std::span<const glm::vec3> positions);
 
-/// Of a world position p, with q = p - eye: clip coordinates are clip_from_offset * q + clip_offset, made for
-/// depth 0..1. Depth is reversed, 1 at the near plane, so that floats are dense far away where depths crowd.
-/// Ray parameter t (of ViewRays: q = t d) from depth z: perspective, without far plane, near_t / z;
+/// Takes a world position p, with q = p - eye, to clip coordinates: clip_from_offset * q + clip_offset, made
+/// for depth 0..1. Depth is reversed, 1 at the near plane, so that floats are dense far away where depths
+/// crowd. Ray parameter t (of ViewRays: q = t d) from depth z: perspective, without far plane, near_t / z;
 /// orthographic, where the far plane lies behind all geometry, mix(far_t, near_t, z).
 struct ClipTransform {
   glm::mat3x4 clip_from_offset{0.0f};

@@ -17,7 +17,7 @@ struct Planes {
   float* depth = nullptr;  ///< null: not wanted
 };
 
-/// Of a thread that draws several places of a tile.
+/// Scratch of a thread that draws several places of a tile.
 struct PlaceScratch {
   std::vector<const TileRecord*> records, layer_records;
   Covers covers;

@@ -25,7 +25,8 @@ struct PixelPlaces {
   }
 };
 
-/// Of all pixels. Most blocks of sixteen pixels see one triangle, and are kept as that.
+/// The ids that all pixels see at several places. Most blocks of sixteen pixels see one triangle, and are
+/// kept as that.
 class PlaceIds {
 public:
   /// Keeps its memory. Every block then has to be set, those of one tile by one thread.

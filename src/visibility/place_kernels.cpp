@@ -22,7 +22,7 @@ namespace {
 struct BlockBox {
   explicit BlockBox(const TileRecord& r)
       : x0(r.x0 / block_side), y0(r.y0 / block_side), x1(r.x1 / block_side), y1(r.y1 / block_side) {}
-  /// Of a region's sixteen blocks, those within.
+  /// Which of a region's sixteen blocks lie within.
   std::uint32_t bits_of(int region_x, int region_y) const {
     const auto span = [](int first, int last) {  // of four
       return (0xfu << std::clamp(first, 0, 4) & 0xfu) & ~(0xfu << std::clamp(last + 1, 0, 4));

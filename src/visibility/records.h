@@ -41,7 +41,7 @@ struct TriangleSetup8 {
   double at_origin[4][8];
   double along_x[4][8];
   double along_y[4][8];
-  /// The same in float and bounded, as TileRecord has them, from the first pixel of the triangle's box on.
+  /// The edges in float and bounded, as TileRecord has them, from the first pixel of the triangle's box on.
   float value_at_box[4][8];
   float step_x[4][8];
   float step_y[4][8];

@@ -16,8 +16,8 @@ struct SetupKernels {
   /// Fills vertices first ... last - 1 of `out`.
   void (*place)(const Window& window, std::span<const glm::vec3> positions, std::size_t first,
                 std::size_t last, WindowVertices& out) = nullptr;
-  /// Of sixteen triangles (fewer: repeat one) starting with `id`, those that may cover a pixel's centre, to
-  /// `out` from `begin` on, which has room for sixteen more. `wanted`: bit k: consider triangle k. Returns
+  /// Writes those of sixteen triangles (fewer: repeat one) starting with `id` that may cover a pixel's centre
+  /// to `out` from `begin` on, which has room for sixteen more. `wanted`: bit k: consider triangle k. Returns
   /// how many.
   std::size_t (*choose)(const Window& window, const WindowVertices& vertices, const glm::uvec3* triangles,
                         std::uint32_t id, std::uint32_t wanted, std::size_t begin, Candidates& out) = nullptr;

@@ -48,7 +48,7 @@ public:
   Expected<void> draw(const FrameGeometry& geometry, const ViewRays& view, int width, int height,
                       bool with_depth, SimdLevel simd, VisibleIds& out);
 
-  /// The same at up to sixteen places of each pixel at once (from its centre, less than 0.5 each way,
+  /// Draws the ids at up to sixteen places of each pixel at once (from its centre, less than 0.5 each way,
   /// multiples of 1/512), in place of its centre: a triangle covers a place if the ray through it does,
   /// exactly. Returns false, with `out` unspecified, where the triangles or the places are too many to be
   /// held at once. Threads and instruction set change no bit here either.
