@@ -178,7 +178,7 @@ SIMD_INLINE void store_fours(Pack<T, N> a, Pack<T, N> b, Pack<T, N> c, Pack<T, N
   for (int i = 0; i < a.registers; ++i)
     hn::StoreInterleaved4(a.r[i], b.r[i], c.r[i], d.r[i], typename Pack<T, N>::Tag(), to + 4 * i * a.width);
 }
-/// The same four values again and again.
+/// Four values, repeated to the end of the pack.
 template <class P, class T>
 SIMD_INLINE P load_four(const T* from) {
   if constexpr (sizeof(T) == 4 && P::width >= 4) {

@@ -19,7 +19,7 @@ SIMD_INLINE Float16 clamped(Float16 value, float least, float most) {
   return min(max(value, number(least)), number(most));
 }
 
-/// Of normal positive values; error below 2e-7 beside that of the result's rounding.
+/// The logarithm of normal positive values; error below 2e-7 beside that of the result's rounding.
 SIMD_INLINE Float16 log2_of(Float16 x) {
   const Int16 bits = bits_of(x);
   const Int16 exponent = shift_right<23>(bits - broadcast<Int16>(0x3f3504f3));  // from sqrt(1/2) on
