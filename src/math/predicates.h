@@ -8,7 +8,7 @@ namespace tenebra::math {
 
 /// Sign of det(a - l, b - l, p - l): on which side of the plane through l, a and b the point p lies.
 int edge_side(const glm::vec3& l, const glm::vec3& a, const glm::vec3& b, const glm::dvec3& p);
-/// The same for l at infinity in `direction`: sign of ((b - a) x direction) . (p - a).
+/// The side of such a plane with l at infinity in `direction`: sign of ((b - a) x direction) . (p - a).
 int edge_side_infinite(const glm::vec3& direction, const glm::vec3& a, const glm::vec3& b,
                        const glm::dvec3& p);
 
