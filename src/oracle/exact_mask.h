@@ -45,7 +45,7 @@ public:
   bool active(const glm::dvec3& point, std::uint32_t id) const;
   /// A triangle that blocks the sample, or no_triangle. Does not check whether the sample is active.
   std::uint32_t blocker(const glm::dvec3& point, std::uint32_t id, ExactMaskStats& stats) const;
-  /// The same over all triangles, without the candidate search.
+  /// A blocker found among all triangles, without the candidate search.
   std::uint32_t blocker_among_all(const glm::dvec3& point, std::uint32_t id, ExactMaskStats& stats) const;
   /// Whether triangle `occluder` blocks the sample.
   bool blocks(std::uint32_t occluder, const glm::dvec3& point, std::uint32_t id, ExactMaskStats& stats) const;

@@ -10,7 +10,7 @@ struct Vector {
   T x, y, z;
   Vector() = default;
   Vector(T x_, T y_, T z_) : x(std::move(x_)), y(std::move(y_)), z(std::move(z_)) {}
-  /// Of floats or doubles, exactly.
+  /// The vector of floats or doubles, exactly.
   template <class V>
   explicit Vector(const V& v) : x(double(v.x)), y(double(v.y)), z(double(v.z)) {}
 };
