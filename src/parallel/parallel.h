@@ -45,7 +45,7 @@ void parallel_ranges(std::size_t count, std::size_t grain, RangeBody body);
 /// Calls body(0) ... body(count - 1), possibly at once; may be nested.
 void parallel_tasks(int count, TaskBody body);
 
-/// The same; a thread that is free takes the next of them, in order. For few of uneven length, longest first.
+/// Calls the bodies in order: a thread that is free takes the next. For few of uneven length, longest first.
 void parallel_in_order(int count, TaskBody body);
 
 /// Index of the calling thread among those of the loop, in 0..thread_count() - 1; for per-thread scratch.
