@@ -113,7 +113,7 @@ struct Corners {
   alignas(64) float down[16];          ///< 0 at the upper ones
 };
 
-/// The same for all of a sample's places on one level.
+/// The corners of all of a sample's places on one level.
 struct LevelCorners {
   alignas(64) std::int32_t stride[16];
   Corners of_tap[most_taps];

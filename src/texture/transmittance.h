@@ -23,8 +23,8 @@ bool uses_transmission_map(const Scene& scene, const Material& material);
 /// Whether the vertices' colours affect it.
 bool uses_vertex_colors(const Material& material);
 
-/// The same at texture coordinates `uv` (both sets) and a vertex colour. Textures bilinear as stored, then
-/// decoded where the scene's colours are linear.
+/// The transmittance at texture coordinates `uv` (both sets) and with a vertex colour. Textures bilinear as
+/// stored, then decoded where the scene's colours are linear.
 glm::vec3 transmittance_at(const Scene& scene, const Material& material, const glm::vec2 uv[2],
                            const glm::vec4& vertex);
 
