@@ -32,7 +32,7 @@ struct Kernels {
   /// Places and normals at window places (x, y), all of one triangle.
   void (*place)(const TriangleSetup& setup, bool smooth_terminator, const float* x, const float* y,
                 std::size_t first, std::size_t count, SampleBlock& block) = nullptr;
-  /// The same surface everywhere.
+  /// Puts one surface on all samples.
   void (*cover)(const Surface& surface, std::size_t first, std::size_t count, SampleBlock& block) = nullptr;
   /// Places on textures, of placed samples of one triangle.
   void (*locate)(const TriangleSetup& setup, const CoordinatePlane& plane, const SampleBlock& block,
@@ -54,7 +54,7 @@ struct Kernels {
   /// 0).
   void (*see)(const Panorama& picture, const SampleBlock::Channel (&towards)[3], const float* roughness,
               std::size_t first, std::size_t count, SampleBlock::Channel (&out)[3]) = nullptr;
-  /// The same with `irradiance` and `radiance` all around, for ambient and reflected.
+  /// Ambient and reflected light from `irradiance` and `radiance` all around.
   void (*surround)(const Panorama& irradiance, const Panorama& radiance, SampleBlock& block) = nullptr;
   /// color = ambient * openness + emissive; `openness`: one for each sample, or null: all open. Glossy
   /// samples also mirror `reflected`, times their openness.

@@ -16,8 +16,8 @@ HWY_BEFORE_NAMESPACE();
 namespace tenebra::shade::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
-/// Of 0 to 1. tan(a) = t has tan(a / 2) = t / (1 + sqrt(1 + t t)): twice, so that t is at most 0.199, where
-/// the series errs by 4 * 0.199^11 / 11 < 1e-8; roundings are below 1e-6.
+/// The arctangent of 0 to 1. tan(a) = t has tan(a / 2) = t / (1 + sqrt(1 + t t)): twice, so that t is at most
+/// 0.199, where the series errs by 4 * 0.199^11 / 11 < 1e-8; roundings are below 1e-6.
 SIMD_INLINE Float16 arctangent(Float16 t) {
   const Float16 one = number(1.0f);
   for (int i = 0; i < 2; ++i) t = t / (one + sqrt(one + t * t));

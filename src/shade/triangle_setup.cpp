@@ -56,7 +56,7 @@ void set_planes(const dvec3& a, const dvec3& e1, const dvec3& e2, const dvec3& n
   out.v = weight(dv);
 }
 
-/// Of `face`; zero is on any.
+/// Whether all normals are on one side of `face`; zero is on any.
 bool are_on_one_side(const std::array<vec3, 3>& normals, const vec3& face) {
   bool one = true, other = true;
   for (const vec3& n : normals) {
