@@ -34,7 +34,7 @@ struct TrianglePlanes {
   std::int32_t side;       ///< s of the contract: +1 or -1
 };
 
-/// The same in float for the conservative node tests, and the triangle's corners as seen from the light. Two
+/// Planes in float for the conservative node tests, and the triangle's corners as seen from the light. Two
 /// cache lines: lists of triangles are walked at the speed of memory.
 struct alignas(64) TriangleBounds {
   float mx[4], my[4], mz[4];

@@ -80,8 +80,8 @@ private:
   std::uint32_t cover_tiles(RayNode& n, int i, std::uint32_t met);
   void test_tile(const Waiting& w);
   bool test_triangle(const Waiting& w, const RoughRays& rough, int i);
-  /// Of a slot with points on several triangles: the lanes whose points lie on triangle `id`, which never
-  /// blocks those. Where all points lie on one, by_tiles() and by_triangles() have left that one out.
+  /// The lanes whose points lie on triangle `id`, which never blocks those, in a slot with points on several
+  /// triangles. Where all points lie on one, by_tiles() and by_triangles() have left that one out.
   std::uint32_t own_lanes(const RayNode& n, int slot, std::uint32_t id) const {
     return n.own[slot] == no_triangle && skip_own_ ? eq_bits(tile(n, slot).id, id) : 0;
   }
@@ -95,7 +95,7 @@ private:
   points::PositionFinder finder_;
   DescentScratch& scratch_;
   TraceStats& stats_;
-  // Of the cluster that descends:
+  // The cluster that descends:
   const TriangleCluster* cluster_ = nullptr;
   FaceBox cluster_box_{};
   FaceBoxes boxes_;                 ///< of its triangles

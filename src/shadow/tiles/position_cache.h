@@ -21,7 +21,8 @@ struct alignas(64) TilePositions {
   glm::dvec3 at(int lane) const { return {x[lane], y[lane], z[lane]}; }
 };
 
-/// Of one thread and one trace. Most traces need none: memory is taken with the first.
+/// Positions that one thread has worked out in one trace. Most traces need none: memory is taken with the
+/// first.
 class PositionCache {
 public:
   void clear() {

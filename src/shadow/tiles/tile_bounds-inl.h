@@ -47,7 +47,8 @@ SIMD_INLINE bool bound(const points::PointTile& tile, const points::PointBase& f
   return box.u0 >= -face_limit && box.u1 <= face_limit && box.v0 >= -face_limit && box.v1 <= face_limit;
 }
 
-/// The same on the distant face, which holds all points. Their coordinates are off by 3u (|base| + grain).
+/// The box of a tile's lanes on the distant face, which holds all points. Their coordinates are off by 3u
+/// (|base| + grain).
 SIMD_INLINE void bound(const points::PointTile& tile, const points::PointBase& from, std::uint32_t lanes,
                        const DistantFace& f, FaceBox& box) {
   const float* const q[3] = {tile.qx, tile.qy, tile.qz};

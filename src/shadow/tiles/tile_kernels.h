@@ -36,7 +36,7 @@ struct TileKernels {
   /// Box of some lanes (not 0) of a tile, from the points themselves; false if they are not all on the face.
   bool (*bound)(const points::PointTile& tile, const points::PointBase& base, std::uint32_t lanes,
                 const glm::dvec3& light, int face, FaceBox& box) = nullptr;
-  /// The same on the distant face; `project` is false for tiles that are too far apart only.
+  /// Projects and bounds on the distant face; `project` is false for tiles that are too far apart only.
   bool (*project_distant)(const points::PointSquare& square, std::uint32_t tiles, const DistantFace& face,
                           RayNode& node, FaceBox& all) = nullptr;
   void (*bound_distant)(const points::PointTile& tile, const points::PointBase& base, std::uint32_t lanes,
