@@ -49,7 +49,7 @@ struct GroupOccluders {
   /// Triangles that shadow all points of the group from the same side, largest first (ties: by id). Lines
   /// that are positive for every point and all of the light are left out.
   std::vector<Occluder> occluders;
-  /// Of triangles with points on both sides, or too near, or on the triangle itself: places in
+  /// Triangles with points on both sides, or too near, or on the triangle itself: places in
   /// GroupCandidates::all.
   std::vector<std::uint32_t> indefinite;
   std::vector<MovingLine> lines;

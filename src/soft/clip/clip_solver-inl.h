@@ -179,7 +179,7 @@ private:
     }
   }
 
-  /// The same for the occluders in the list from place `first` on.
+  /// Subtracts the occluders in the list from place `first` on from several parts.
   void subtract_list(const Parts& parts, PartBoxes<T>& boxes, std::size_t begin, std::size_t end,
                      const LightBox<T>& box, std::size_t first, Parts& out) {
     const std::size_t last = cold_.list.count();
@@ -199,7 +199,7 @@ private:
     }
   }
 
-  /// The same for one part: subtracts a few occluders, and the others from the fragments that these leave.
+  /// Subtracts a few occluders of the list from one part, and the others from the fragments that these leave.
   void subtract_long_list(const Part& part, std::size_t first, Parts& out) {
     Parts left = take();
     subtract_listed(cold_, first, first + few, part, left);
@@ -218,7 +218,7 @@ private:
     subtract_few(c, c.list.from(first), lowest_bits(last - first), part, out);
   }
 
-  /// The same for those that are not hot and a part in `box`: most are only near it, so none is chosen first.
+  /// Subtracts those that are not hot from a part in `box`: most are only near it, so none is chosen first.
   HWY_NOINLINE void subtract_in_order(std::size_t first, std::size_t last, const Part& part,
                                       const LightBox<T>& box, Parts& out) {
     if (first == last) return out.push(part);

@@ -124,7 +124,7 @@ HWY_NOINLINE void find_boxes(const OccluderBlock& block, const GroupPoint& at, B
   out.lanes = block.lanes & lt_bits(zero, highest);
 }
 
-/// The same for the shadows that points of a range may see. An occluder wholly at or below the lowest point
+/// Boxes of the shadows that points of a range may see. An occluder wholly at or below the lowest point
 /// shadows nothing; one that is partly at or below the highest may shadow all.
 template <class T>
 HWY_NOINLINE void find_boxes(const OccluderBlock& block, const PointRange& at, BlockBoxes<T>& out) {

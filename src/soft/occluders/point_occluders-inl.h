@@ -106,7 +106,7 @@ private:
   /// Up to this many, each is tested once against a part, and not against all of its fragments (measured).
   static constexpr int few_left = 12;
 
-  /// Of the bits of `left`, those whose occluders are not separated from `part` by one of their own lines.
+  /// The bits of `left` whose occluders are not separated from `part` by one of their own lines.
   SIMD_INLINE std::uint64_t touching(const LaneIndex<T>* ids, std::uint64_t left,
                                      const LightPolygon<T>& part) {
     std::uint64_t found = 0;

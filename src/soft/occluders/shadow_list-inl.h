@@ -48,7 +48,7 @@ struct ShadowBoxes {
   }
 };
 
-/// Of the first sixteen those that meet `box`.
+/// Which of the first sixteen boxes meet `box`.
 template <class T>
 SIMD_INLINE Mask<T, 16> meets(const ShadowBoxes<T>& boxes, const LightBox<T>& box) {
   using Lanes = Pack<T, 16>;

@@ -96,7 +96,7 @@ struct LineSides {
   /// of what counts as on the line; anything where u = v = 0.
   Pack<T, polygon_capacity> lowest;
 
-  /// Of the lines of `among`, at least one, the one with a vertex farthest on its negative side.
+  /// The line, of those of `among` (at least one), with a vertex farthest on its negative side.
   SIMD_INLINE int deepest(std::uint32_t among) const {
     if (std::has_single_bit(among)) return std::countr_zero(among);
     T values[polygon_capacity];
@@ -113,7 +113,8 @@ struct LineSides {
   }
 };
 
-/// The same decisions as evaluate(), for four lines and four vertices at a time.
+/// On which sides of the lines the vertices lie: decided as by evaluate(), for four lines and four vertices
+/// at a time.
 template <class T>
 SIMD_INLINE LineSides<T> sides_of(const LightPolygon<T>& polygon, const ShadowLines<T>& lines) {
   using Lanes = Pack<T, polygon_capacity>;

@@ -17,7 +17,7 @@ namespace {
 // Nodes of fewer groups pass on their list unchanged: culling pays from here on (measured).
 constexpr std::uint32_t fewest_groups = 3;
 
-// The same for nodes with more than this part of the groups that the last cull was for: a cull at each level
+// So do nodes with more than this part of the groups that the last cull was for: a cull at each level
 // of the tree would drop only a third of the triangles, one at every second level drops half.
 constexpr double most_groups = 0.4;
 

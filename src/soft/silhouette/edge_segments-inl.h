@@ -59,7 +59,7 @@ public:
   std::vector<Block> blocks;
   std::vector<WindingChange<T>> side_changes;  ///< in order along the sides, counter-clockwise
 
-  /// Of the edges from place `first` on.
+  /// Finds the segments of the edges from place `first` on.
   HWY_NOINLINE void find(const SilhouetteEdges<T>& edges, std::size_t first, T slack,
                          const LightPolygon<T>& part) {
     take_up(part, slack);

@@ -22,7 +22,7 @@ namespace tenebra::soft {
 
 struct SilhouetteEdge {
   glm::dvec3 from, to;  ///< in LightAxes
-  /// Of triangles that block all points: +1 for one that runs through it this way, -1 for the other way.
+  /// How many triangles that block all points run through it: +1 for one this way, -1 for the other way.
   int winding = 0;
 };
 

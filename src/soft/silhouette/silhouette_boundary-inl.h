@@ -209,7 +209,7 @@ private:
     append(segments_.to(i));
   }
 
-  /// Of edge i by edge k. The place is found the same way for both.
+  /// Where edge k crosses edge i, and how that changes i's winding. The place is found the same way for both.
   WindingChange<T> crossing(std::size_t i, std::size_t k) const {
     const auto cross = [](const Place& a, const Place& b) { return a.x * b.y - a.y * b.x; };
     const auto way = [&](std::size_t edge) { return segments_.to(edge) - segments_.from(edge); };

@@ -149,7 +149,7 @@ private:
     crossing_.append(counts & lt(min(u0, u1), one) & lt(abs(w), abs(u) + abs(v)), edges);
   }
 
-  /// The same for a part that the crossing edges from `first` on may cross; forgets those.
+  /// Solves a part that the crossing edges from `first` on may cross; forgets those.
   void find(const LightPolygon<T>& part, std::size_t first, LightEdges* boundary, FragmentList<T>& out) {
     const std::size_t count = crossing_.count - first;
     if (boundary != nullptr && count > many && reduce_max(part.y) - reduce_min(part.y) > T(1) / 16)
@@ -208,7 +208,7 @@ private:
     if (winding_of(rest) == T(0)) out.push(rest);
   }
 
-  /// The same for a polygon of any size.
+  /// Solves a polygon of any size.
   void branch(const LightPolygon<T>& part, std::size_t first, FragmentList<T>& out) {
     if (part.count <= fragment_capacity) return solve(part, first, out);
     solve_halves(part, first, out);

@@ -24,10 +24,10 @@ public:
   /// Fills out's pixels of the group, only some of them if frame.stop was requested. The result depends on
   /// the group alone. False, and nothing is counted, if there was no memory.
   bool solve(const SoftFrame& frame, const GroupTask& task);
-  /// The same for groups that lie near each other, within `around`, and have many candidates: these are made
-  /// ready once for all.
+  /// Solves groups that lie near each other, within `around`, and have many candidates: these are made ready
+  /// once for all.
   bool solve_together(const SoftFrame& frame, const GroupFrame& around, std::span<const GroupTask> tasks);
-  /// The same for groups that nothing stands in front of.
+  /// Solves groups that nothing stands in front of.
   void solve_lit(const SoftFrame& frame, std::span<const std::span<const std::uint32_t>> groups);
   /// Prefetches the points of the group that is likely to be solved next (the first of many), and the list of
   /// those `after` it.
