@@ -46,10 +46,10 @@ struct LogFile {
 /// "# from here on ..." stands between rows; in a merged log only where it says so.
 Expected<LogFile> read_log(const std::filesystem::path& path);
 
-/// The same from the text of a file. `name`: for messages.
+/// A log from the text of a file. `name`: for messages.
 Expected<LogFile> parse_log(const std::string& name, std::string_view text);
 
-/// Of rows of one frame only the last stays: a frame whose files were gone was drawn again. With a remark.
+/// Keeps only the last of several rows of one frame, whose files were gone and drawn again. With a remark.
 void keep_last_rows(LogFile& log);
 
 }  // namespace tenebra::viewer

@@ -61,7 +61,7 @@ AddedOption add_texts(CLI::App& command, const std::string& name,
 AddedOption add_reader(CLI::App& command, const std::string& name,
                        std::function<Expected<void>(const std::string&)> read, const std::string& help);
 
-/// The same with a function that makes the value of `target` from text.
+/// Adds an option with a function that makes the value of `target` from text.
 template <class Target, class Value>
 AddedOption add_value(CLI::App& command, const std::string& name, Target& target,
                       Expected<Value> (*parse)(const std::string&), const std::string& help) {

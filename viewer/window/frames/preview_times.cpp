@@ -15,8 +15,8 @@ constexpr double room = 0.8;          // of the budget, for a level finer than t
 constexpr double newest_share = 0.5;  // of the newest time in a level's
 constexpr double first_share = 0.7;   // of the first time, in which buffers are made
 constexpr double forgetting = 0.995;  // per picture: what was too slow once is tried again after a while
-// Of the whole picture's time, for steps on the way to it: a quick one, and the last with one sample per
-// pixel.
+// The share of the whole picture's time that steps on the way to it may take: a quick one, and the last with
+// one sample per pixel.
 constexpr double refining_part = 0.2, single_part = 0.6;
 
 double cost(PreviewLevel level) {
