@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gl/context.h"
+#include "gl/egl_choice.h"
 
 namespace tenebra::gl {
 
@@ -21,8 +22,19 @@ struct Context::Backend {
 
 using BackendResult = Expected<std::unique_ptr<Context::Backend>>;
 
-BackendResult create_egl_backend(ContextOptions options);     ///< not yet current
+/// Not yet current. `device`: this alone; none: as Context::create says.
+BackendResult create_egl_backend(ContextOptions options, std::optional<int> device);
 BackendResult create_osmesa_backend(ContextOptions options);  ///< not yet current
+
+/// A device or platform of EGL, and its context or what it lacks.
+struct EglOffer {
+  std::string name;
+  EglPlatform kind;
+  std::optional<int> device;
+  BackendResult backend;
+};
+/// All of them, each with a context; none if there is no EGL.
+std::vector<EglOffer> egl_offers();
 
 /// Loads the functions of the context that is current and describes it; fails below OpenGL 4.5.
 Expected<void> load_functions(Context::Backend& backend);

@@ -1,5 +1,6 @@
 #include "gl/context.h"
 
+#include <charconv>
 #include <utility>
 
 #include "base/fail.h"
@@ -29,17 +30,23 @@ Expected<Context> finish(BackendResult made, ContextOptions options) {
 
 }  // namespace
 
-std::optional<ContextKind> context_kind_from_name(std::string_view name) {
+std::optional<ContextChoice> context_choice_from_name(std::string_view name) {
+  constexpr std::string_view device = "egl:";
   if (name == "auto") return ContextKind::automatic;
   if (name == "egl") return ContextKind::egl;
   if (name == "osmesa") return ContextKind::osmesa;
-  return std::nullopt;
+  if (!name.starts_with(device)) return std::nullopt;
+  int number = 0;
+  const char *const first = name.data() + device.size(), *const last = name.data() + name.size();
+  const auto [end, error] = std::from_chars(first, last, number);
+  if (error != std::errc() || end != last || *first == '-') return std::nullopt;
+  return ContextChoice(ContextKind::egl, number);
 }
 
-Expected<Context> Context::create(ContextKind kind, ContextOptions options) {
-  if (kind == ContextKind::egl) return finish(create_egl_backend(options), options);
-  if (kind == ContextKind::osmesa) return finish(create_osmesa_backend(options), options);
-  auto egl = finish(create_egl_backend(options), options);
+Expected<Context> Context::create(ContextChoice choice, ContextOptions options) {
+  if (choice.kind == ContextKind::egl) return finish(create_egl_backend(options, choice.device), options);
+  if (choice.kind == ContextKind::osmesa) return finish(create_osmesa_backend(options), options);
+  auto egl = finish(create_egl_backend(options, {}), options);
   if (egl) return egl;
   auto osmesa = finish(create_osmesa_backend(options), options);
   if (osmesa) return osmesa;

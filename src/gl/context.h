@@ -1,4 +1,5 @@
-// Offscreen OpenGL contexts: EGL surfaceless or OSMesa, chosen at run time; or one adopted from a window.
+// Offscreen OpenGL contexts: by EGL on a GPU if there is one, else in software by EGL or OSMesa, chosen at
+// run time; or one adopted from a window.
 #pragma once
 
 #include <memory>
@@ -12,7 +13,15 @@
 namespace tenebra::gl {
 
 enum class ContextKind { automatic, egl, osmesa };
-std::optional<ContextKind> context_kind_from_name(std::string_view name);  ///< auto, egl, osmesa
+
+/// A kind, and for EGL the device, counted as EGL lists them (gl/survey.h).
+struct ContextChoice {
+  constexpr ContextChoice(ContextKind kind_ = ContextKind::automatic, std::optional<int> device_ = {})
+      : kind(kind_), device(device_) {}
+  ContextKind kind;
+  std::optional<int> device;  ///< none: the first that draws by more than software, else any
+};
+std::optional<ContextChoice> context_choice_from_name(std::string_view name);  ///< auto, egl, egl:N, osmesa
 
 struct ContextOptions {
   bool debug = false;  ///< collect the driver's messages (KHR_debug) for take_debug_messages
@@ -25,8 +34,10 @@ using FunctionLoader = Function (*)(const char* name);  ///< glfwGetProcAddress 
 /// functions is one for the process: of several contexts, use only the one last created or made current.
 class Context {
 public:
-  /// automatic: EGL surfaceless, else OSMesa. Fails with a sentence that names what each lacked.
-  static Expected<Context> create(ContextKind kind, ContextOptions options = {});
+  /// automatic: EGL, else OSMesa. EGL: the first device that draws by more than software, else the
+  /// surfaceless platform, else a device that draws by software. Fails with a sentence that names what each
+  /// lacked.
+  static Expected<Context> create(ContextChoice choice, ContextOptions options = {});
   /// The context that is current on this thread, owned by someone else (a window) who outlives this object.
   static Expected<Context> adopt(FunctionLoader loader);
   Context(Context&&) noexcept;

@@ -1,5 +1,5 @@
-// Contexts without a window by EGL: Mesa's surfaceless platform, else the devices of a GPU server. Loaded at
-// run time: what draws on the CPU needs no EGL.
+// Contexts without a window by EGL: on the devices that it lists, the first of which that is a GPU is taken,
+// and on Mesa's surfaceless platform. Loaded at run time: what draws on the CPU needs no EGL.
 #define EGL_NO_X11
 #include <dlfcn.h>
 
@@ -11,6 +11,8 @@
 #include "gl/backend.h"
 
 #include "base/fail.h"
+#include "gl/egl_choice.h"
+#include "gl/renderer_name.h"
 
 namespace tenebra::gl {
 namespace {
@@ -27,6 +29,7 @@ struct Egl {
   decltype(&eglGetProcAddress) function = nullptr;
   decltype(&eglInitialize) initialize = nullptr;
   decltype(&eglMakeCurrent) make_current = nullptr;
+  decltype(&eglQueryString) string = nullptr;
 };
 
 template <class Pointer>
@@ -47,7 +50,7 @@ Expected<Egl> load_egl() {
       find(handle, "eglGetCurrentContext", egl.current_context) && find(handle, "eglGetError", egl.error) &&
       find(handle, "eglGetPlatformDisplay", egl.platform_display) &&
       find(handle, "eglGetProcAddress", egl.function) && find(handle, "eglInitialize", egl.initialize) &&
-      find(handle, "eglMakeCurrent", egl.make_current);
+      find(handle, "eglMakeCurrent", egl.make_current) && find(handle, "eglQueryString", egl.string);
   dlclose(handle);
   if (!complete) return base::fail("EGL: found a library older than EGL 1.5");
   return egl;
@@ -82,25 +85,51 @@ private:
   EGLContext context_;
 };
 
+/// Where a context can be asked for.
 struct Platform {
   std::string name;
-  EGLenum platform;
-  void* native;
+  EGLenum platform = 0;
+  void* native = nullptr;
+  EglPlatform kind = EglPlatform::surfaceless;
+  std::optional<int> device;  ///< none: the surfaceless platform
 };
 
-std::vector<Platform> platforms(const Egl& egl) {
-  std::vector<Platform> result{
-      {"surfaceless", EGL_PLATFORM_SURFACELESS_MESA, reinterpret_cast<void*>(EGL_DEFAULT_DISPLAY)}};
-  const auto query_devices = reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(egl.function("eglQueryDevicesEXT"));
+bool has_word(const char* list, std::string_view word) {
+  const std::string padded = fmt::format(" {} ", list != nullptr ? list : "");
+  return padded.find(fmt::format(" {} ", word)) != std::string::npos;
+}
+
+/// In the order of EGL, whose dispatcher asks the drivers in the order of their files.
+std::vector<Platform> devices_of(const Egl& egl) {
+  // The dispatcher has entry points for what no driver can do: only these words say that it is there.
+  const char* const can = egl.string(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+  const bool lists = has_word(can, "EGL_EXT_device_base") || has_word(can, "EGL_EXT_device_enumeration");
+  if (!lists || !has_word(can, "EGL_EXT_platform_device")) return {};
+  const auto query = reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(egl.function("eglQueryDevicesEXT"));
+  const auto text = reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(egl.function("eglQueryDeviceStringEXT"));
   constexpr int max_devices = 32;
   std::array<EGLDeviceEXT, max_devices> devices{};
   EGLint count = 0;
-  if (!query_devices || !query_devices(max_devices, devices.data(), &count)) return result;
+  std::vector<Platform> result;
+  if (query == nullptr || !query(max_devices, devices.data(), &count)) return result;
   for (int i = 0; i < count; ++i) {
-    result.push_back(
-        {fmt::format("device {}", i), EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(i)]});
+    const EGLDeviceEXT device = devices[static_cast<std::size_t>(i)];
+    const char* const kinds = text != nullptr ? text(device, EGL_EXTENSIONS) : nullptr;
+    const bool software = has_word(kinds, "EGL_MESA_device_software");
+    result.push_back({fmt::format("device {}", i), EGL_PLATFORM_DEVICE_EXT, device,
+                      software ? EglPlatform::software_device : EglPlatform::device, i});
   }
   return result;
+}
+
+std::vector<Platform> platforms_of(const Egl& egl) {
+  std::vector<Platform> all = devices_of(egl);
+  all.push_back({"surfaceless",
+                 EGL_PLATFORM_SURFACELESS_MESA,
+                 reinterpret_cast<void*>(EGL_DEFAULT_DISPLAY),
+                 EglPlatform::surfaceless,
+                 {}});
+  return all;
 }
 
 EGLContext create_context(const Egl& egl, EGLDisplay display, ContextOptions options) {
@@ -141,18 +170,58 @@ BackendResult create_on(const Egl& egl, const Platform& platform, ContextOptions
   return backend;
 }
 
+/// Of the context that is current.
+bool draws_by_software(const Egl& egl) {
+  using GetString = const unsigned char* (*)(unsigned);
+  constexpr unsigned gl_renderer = 0x1F01;
+  const auto get_string = reinterpret_cast<GetString>(egl.function("glGetString"));
+  const unsigned char* const renderer = get_string != nullptr ? get_string(gl_renderer) : nullptr;
+  return renderer != nullptr && is_software_renderer(reinterpret_cast<const char*>(renderer));
+}
+
+BackendResult create_on_device(const Egl& egl, int device, ContextOptions options) {
+  const std::vector<Platform> devices = devices_of(egl);
+  if (devices.empty()) return base::fail("EGL lists no devices; found device {} asked for", device);
+  if (static_cast<std::size_t>(device) >= devices.size()) {
+    return base::fail("EGL: found device {} asked for, expected 0 to {}; tenebra info --gl lists them",
+                      device, devices.size() - 1);
+  }
+  auto backend = create_on(egl, devices[static_cast<std::size_t>(device)], options);
+  if (!backend) return base::fail("EGL {}", backend.error().message);
+  return backend;
+}
+
 }  // namespace
 
-BackendResult create_egl_backend(ContextOptions options) {
+BackendResult create_egl_backend(ContextOptions options, std::optional<int> device) {
   const auto egl = load_egl();
   if (!egl) return tl::unexpected(egl.error());
+  if (device) return create_on_device(*egl, *device, options);
+  const std::vector<Platform> platforms = platforms_of(*egl);
+  std::vector<EglPlatform> kinds;
+  for (const Platform& platform : platforms) kinds.push_back(platform.kind);
+  std::vector<std::unique_ptr<Context::Backend>> made(platforms.size());
   std::string lacks;
-  for (const Platform& platform : platforms(*egl)) {
-    auto backend = create_on(*egl, platform, options);
-    if (backend) return backend;
-    lacks += (lacks.empty() ? "" : ", ") + backend.error().message;
-  }
+  const auto chosen = choose_platform(kinds, [&](std::size_t i) {
+    auto backend = create_on(*egl, platforms[i], options);
+    if (!backend) {
+      lacks += (lacks.empty() ? "" : ", ") + backend.error().message;
+      return Draws::nothing;
+    }
+    made[i] = std::move(*backend);
+    return draws_by_software(*egl) ? Draws::by_software : Draws::by_hardware;
+  });
+  if (chosen) return std::move(made[*chosen]);
   return base::fail("EGL offers no OpenGL 4.5 core context without a window ({})", lacks);
+}
+
+std::vector<EglOffer> egl_offers() {
+  std::vector<EglOffer> offers;
+  const auto egl = load_egl();
+  if (!egl) return offers;
+  for (const Platform& platform : platforms_of(*egl))
+    offers.push_back({platform.name, platform.kind, platform.device, create_on(*egl, platform, {})});
+  return offers;
 }
 
 }  // namespace tenebra::gl

@@ -1,13 +1,13 @@
 #include "render/frame_raster.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <span>
 
 #include "base/fail.h"
 #include "base/stopwatch.h"
 #include "gl/kept_state.h"
+#include "gl/renderer_name.h"
 #include "parallel/parallel.h"
 #include "raster/gbuffer.h"
 #include "raster/geometry_buffers.h"
@@ -59,13 +59,6 @@ FrameRaster::FrameRaster(FrameRaster&&) noexcept = default;
 FrameRaster& FrameRaster::operator=(FrameRaster&&) noexcept = default;
 FrameRaster::~FrameRaster() = default;
 
-bool is_software_renderer(std::string_view gl_renderer) {
-  constexpr std::array<std::string_view, 5> names{"llvmpipe", "softpipe", "swrast", "SWR",
-                                                  "Software Rasterizer"};
-  return std::any_of(names.begin(), names.end(),
-                     [&](std::string_view name) { return gl_renderer.find(name) != std::string_view::npos; });
-}
-
 Expected<FrameRaster> FrameRaster::create(gl::Context context) {
   auto pass = raster::GBufferPass::create();
   if (!pass) return tl::unexpected(pass.error());
@@ -82,7 +75,7 @@ Expected<FrameRaster> FrameRaster::create(const RasterChoice& choice) {
     if (!context) return tl::unexpected(context.error());
     return create(std::move(*context));
   }
-  if (!context || is_software_renderer(context->description())) return FrameRaster();
+  if (!context || gl::is_software_renderer(context->description())) return FrameRaster();
   return create(std::move(*context));
 }
 

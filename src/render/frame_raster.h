@@ -23,7 +23,7 @@ enum class RasterKind { automatic, gl, cpu };
 /// How pictures are to be rasterised, and the OpenGL context for it.
 struct RasterChoice {
   RasterKind kind = RasterKind::automatic;
-  gl::ContextKind context = gl::ContextKind::automatic;
+  gl::ContextChoice context;
   gl::ContextOptions options;
 };
 
@@ -74,8 +74,5 @@ private:
   visibility::VisibilityPass cpu_;
   visibility::VisibleIds one_place_;
 };
-
-/// Whether GL_RENDERER names a renderer that runs on the CPU.
-bool is_software_renderer(std::string_view gl_renderer);
 
 }  // namespace tenebra::render

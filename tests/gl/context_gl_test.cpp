@@ -20,7 +20,7 @@ protected:
 TEST_P(ContextOfKind, IsCreated) {
   auto context = Context::create(GetParam());
   ASSERT_TRUE(context) << context.error().message;
-  EXPECT_EQ(context_kind_from_name(context->kind_name()), GetParam());
+  EXPECT_EQ(context_choice_from_name(context->kind_name())->kind, GetParam());
   EXPECT_NE(context->description().find("OpenGL 4."), std::string::npos) << context->description();
 }
 
@@ -31,11 +31,17 @@ TEST(Context, AutomaticPrefersEgl) {
 }
 
 TEST(Context, KindNamesAreThoseOfTheCommandLine) {
-  EXPECT_EQ(context_kind_from_name("auto"), ContextKind::automatic);
-  EXPECT_EQ(context_kind_from_name("egl"), ContextKind::egl);
-  EXPECT_EQ(context_kind_from_name("osmesa"), ContextKind::osmesa);
-  for (const char* bad : {"", "EGL", "glx", "egl ", "automatic"})
-    EXPECT_FALSE(context_kind_from_name(bad)) << bad;
+  const auto kind_of = [](const char* name) { return context_choice_from_name(name)->kind; };
+  EXPECT_EQ(kind_of("auto"), ContextKind::automatic);
+  EXPECT_EQ(kind_of("egl"), ContextKind::egl);
+  EXPECT_EQ(kind_of("osmesa"), ContextKind::osmesa);
+  EXPECT_EQ(context_choice_from_name("egl")->device, std::nullopt);
+  EXPECT_EQ(context_choice_from_name("egl:0")->device, 0);
+  EXPECT_EQ(context_choice_from_name("egl:12")->device, 12);
+  EXPECT_EQ(kind_of("egl:12"), ContextKind::egl);
+  for (const char* bad :
+       {"", "EGL", "glx", "egl ", "automatic", "egl:", "egl:-1", "egl:1x", "egl:99999999999", "osmesa:0"})
+    EXPECT_FALSE(context_choice_from_name(bad)) << bad;
 }
 
 TEST(Context, TakesTurnsWithAnotherKind) {

@@ -93,13 +93,5 @@ TEST(RasterKinds, VisiblePointsAreThoseOfTheLastFrame) {
   EXPECT_LT(glm::length(*point - *expected), 1e-9);
 }
 
-TEST(RasterKinds, SoftwareRenderersAreKnownByTheirNames) {
-  EXPECT_TRUE(render::is_software_renderer("llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5"));
-  EXPECT_TRUE(render::is_software_renderer("softpipe, OpenGL 3.3"));
-  EXPECT_FALSE(render::is_software_renderer("NVIDIA H100/PCIe/SSE2, OpenGL 4.6.0"));
-  EXPECT_FALSE(
-      render::is_software_renderer("AMD Radeon RX 6600 (radeonsi, navi23, LLVM 15.0.6), OpenGL 4.6"));
-}
-
 }  // namespace
 }  // namespace tenebra

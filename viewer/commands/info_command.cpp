@@ -1,4 +1,4 @@
-// tenebra info: what a scene file holds, as text or JSON.
+// tenebra info: what a scene file holds, or which OpenGL the machine has, as text or JSON.
 #include <fmt/core.h>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -6,7 +6,9 @@
 #include <string_view>
 
 #include <tenebra/additions.h>
+#include "base/fail.h"
 #include "commands/command.h"
+#include "commands/gl_survey.h"
 #include "cutout/cutout.h"
 #include "options/memory_option.h"
 #include "options/method_options.h"
@@ -28,6 +30,7 @@ constexpr const char* info_examples =
     "Examples:\n"
     "  tenebra info scenes/city.glb\n"
     "  tenebra info scenes/city.glb --json | python3 -m json.tool\n"
+    "  tenebra info --gl\n"
     "\n"
     "Triangles and bounds are those of the first frame, in world space. Where the file does not number its\n"
     "frames, they are counted at --fps.";
@@ -39,6 +42,7 @@ struct InfoOptions {
   std::optional<int> memory_mb;
   bool meter = false;
   bool json = false;
+  bool gl = false;
 };
 
 Json list(glm::vec3 v) {
@@ -239,6 +243,8 @@ Expected<void> add_metered(const InfoOptions& options, Json& json) {
 }
 
 Expected<int> info(const InfoOptions& options) {
+  if (options.gl) return print_gl_survey(options.json);
+  if (options.scene.empty()) return base::fail("SCENE is required, or --gl");
   if (auto limited = limit_memory(options.memory_mb); !limited) return tl::unexpected(limited.error());
   auto scene = formats::import_scene(options.scene, options.import);
   if (!scene) return tl::unexpected(scene.error());
@@ -262,12 +268,13 @@ void add_info_command(CLI::App& program, Run& run) {
       add_command(program, "info", "Say what a scene contains: counts, bounds, lights, cameras, animations");
   const auto options = std::make_shared<InfoOptions>();
   set_examples(command, info_examples);
-  add_text(command, "SCENE", options->scene, "Scene file: .gltf .glb .aff .nff .obj").required();
+  add_text(command, "SCENE", options->scene, "Scene file: .gltf .glb .aff .nff .obj");
   add_text(command, "--scene", options->import.scene, "glTF: which scene of the file, by name or number")
       .type_name("NAME|N");
   add_texture_path(command, options->import);
   add_flag(command, "--meter", options->meter, "Also measure what --exposure auto is, with each tone");
   add_flag(command, "--json", options->json, "Print JSON");
+  add_flag(command, "--gl", options->gl, "Say which OpenGL this machine has, in place of a scene");
   add_memory_option(command, options->memory_mb);
   add_value(command, "--fps", options->fps, parse_positive, "Frames per second, to count frames [30]")
       .type_name("F");

@@ -15,9 +15,9 @@ Expected<render::RasterKind> parse_raster(const std::string& text) {
   return parse_choice(raster_choices, text);
 }
 
-Expected<gl::ContextKind> parse_context(const std::string& text) {
-  if (const auto kind = gl::context_kind_from_name(lower_case(text))) return *kind;
-  return base::fail("found {}, expected auto, egl or osmesa", text);
+Expected<gl::ContextChoice> parse_context(const std::string& text) {
+  if (const auto choice = gl::context_choice_from_name(lower_case(text))) return *choice;
+  return base::fail("found {}, expected auto, egl, egl:N or osmesa", text);
 }
 
 }  // namespace
@@ -29,8 +29,10 @@ std::array<AddedOption, 2> add_raster_options(CLI::App& command, render::RasterC
                     "a GPU, else the CPU]")
               .type_name("auto|gl|cpu"),
           add_value(command, "--context", choice.context, parse_context,
-                    "Offscreen OpenGL for --raster gl [auto: EGL, else OSMesa]")
-              .type_name("auto|egl|osmesa")};
+                    "Offscreen OpenGL for --raster gl; egl:N is device N of\n"
+                    "tenebra info --gl [auto: a GPU by EGL, else software by EGL,\n"
+                    "else OSMesa]")
+              .type_name("auto|egl|egl:N|osmesa")};
 }
 
 RasterNames raster_names(const render::FrameRaster& raster) {

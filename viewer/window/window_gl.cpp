@@ -1,7 +1,7 @@
 #include "window/window_gl.h"
 
 #include "base/fail.h"
-#include "render/frame_raster.h"
+#include "gl/renderer_name.h"
 
 #include <glad/gl.h>  // types and constants; the calls go through Functions
 
@@ -134,7 +134,7 @@ void WindowGl::upload(unsigned texture, const base::Image8& image, bool smooth) 
 
 bool WindowGl::is_software() const {
   const GLubyte* name = gl_->get_string ? gl_->get_string(GL_RENDERER) : nullptr;
-  return name && render::is_software_renderer(reinterpret_cast<const char*>(name));
+  return name && gl::is_software_renderer(reinterpret_cast<const char*>(name));
 }
 
 std::vector<std::string> WindowGl::take_messages() {

@@ -49,6 +49,31 @@ TEST(InfoCommand, TellsTheSameAsText) {
   }
 }
 
+TEST(InfoCommand, ListsTheMachinesOpenGl) {
+  const auto result = tenebra({"info", "--gl", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const json all = json::parse(result.output);
+  ASSERT_FALSE(all["offers"].empty());
+  int taken = 0;
+  bool software = true;
+  for (const json& offer : all["offers"]) {
+    EXPECT_NE(offer.contains("lacks"), offer.contains("renderer")) << offer;
+    if (!offer["taken_by_auto"].get<bool>()) continue;
+    ++taken;
+    software = offer["software"].get<bool>();
+  }
+  EXPECT_EQ(taken, 1) << all;
+  EXPECT_EQ(all["raster_auto"], software ? "cpu" : "gl");
+  const auto text = tenebra({"info", "--gl"});
+  EXPECT_NE(text.output.find("auto takes this one"), std::string::npos) << text.output;
+}
+
+TEST(InfoCommand, NeedsASceneOrGl) {
+  const auto result = tenebra({"info"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.errors.find("SCENE is required"), std::string::npos) << result.errors;
+}
+
 TEST(InfoCommand, RoundsNumbersForPeopleAndNotInJson) {
   const TemporaryFolder folder;
   write_text(folder / "a.obj", "v -12.2 0.1 -0\nv 2 0.1 0\nv 0 3 0\nf 1 2 3\n");
