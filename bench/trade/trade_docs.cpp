@@ -22,11 +22,11 @@ std::vector<const TradeTable*> tables_of(const TradeSession& session, const std:
   return tables;
 }
 
-/// "12.5 / **6.4** · 3.1 · 54", times and the first `errors` errors; bold on the front.
+/// "12.5/**6.4** · 3.1 · 54", times and the first `errors` errors; bold on the front.
 std::string cell(const TradePoint& p, std::size_t errors) {
   std::string text;
   for (std::size_t i = 0; i < p.times.size(); ++i)
-    text += fmt::format("{0}{1}{2}{1}", i == 0 ? "" : " / ", p.times[i].front ? "**" : "",
+    text += fmt::format("{0}{1}{2}{1}", i == 0 ? "" : "/", p.times[i].front ? "**" : "",
                         short_number(p.times[i].ms));
   for (std::size_t i = 0; i < errors; ++i) text += " · " + short_number(p.errors[i]);
   return text;
@@ -95,7 +95,7 @@ std::string family_cell(const TradeTable& table, const std::string& family, std:
     for (std::size_t i = 0; i < errors; ++i) wrong[i].push_back(p.errors[i]);
   }
   std::string text;
-  for (const auto& values : times) text += (text.empty() ? "" : " / ") + range_text(values);
+  for (const auto& values : times) text += (text.empty() ? "" : "/") + range_text(values);
   for (const auto& values : wrong)
     if (!values.empty()) text += " · " + range_text(values);
   return text;
@@ -201,7 +201,7 @@ std::string head() {
   return "# What accuracy costs\n\n"
          "Written by `tenebra-bench trade --docs docs`; edit `bench/trade/trade_docs.cpp` and "
          "`trade_advice.cpp`, not this file. `--only` writes single sections anew. Times in milliseconds "
-         "per frame, \"12.5 / 6.4\": of one thread (processor time), and of all threads of the machine "
+         "per frame, \"12.5/6.4\": of one thread (processor time), and of all threads of the machine "
          "(by the clock). Settings take turns, and each time is a median; with `--quick` of 3 runs, or of "
          "fewer where these took 0.25 s together, else of 15, or fewer where they took 4 s.\n\n"
          "A setting is on the **Pareto front** of a view, its time bold, if on so many threads no other "

@@ -48,13 +48,13 @@ std::map<int, std::vector<double>> ratios(const StageRows<Row>& stage, double Ro
   return all;
 }
 
-/// "1.16 to 1.36 / 1.15 to 1.50": least and most on each number of threads.
+/// "1.16 to 1.36/1.15 to 1.50": least and most on each number of threads.
 std::string ranges(const std::map<int, std::vector<double>>& ratios) {
   std::string text;
   for (const auto& [threads, values] : ratios) {
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
     const std::string from = short_number(*least), to = short_number(*most);
-    text += (text.empty() ? "" : " / ") + (from == to ? from : from + " to " + to);
+    text += (text.empty() ? "" : "/") + (from == to ? from : from + " to " + to);
   }
   return text;
 }
@@ -66,7 +66,7 @@ std::string stages_section(const std::string& measured_by, const std::vector<Sta
       fmt::format("## {}\n\n{}", stages_title, measured_by) +
       "With `--quick` 256x256 pixels, else 1024x1024. Whole frames by the program's renderer, hard shadows "
       "unless the row says otherwise: the time with this stage alone switched off or done in full, over the "
-      "time of the frame as it is drawn, on one thread / on all, least and most of the views (one is a mesh "
+      "time of the frame as it is drawn, on one thread/on all, least and most of the views (one is a mesh "
       "that stands still, without a light or texture of its own). Same bits: of the picture, where that is "
       "promised. `--csv` has the single views, with their memory.\n\n"
       "| stage | time without it over time with it | saves a twentieth or more on | same bits |\n"
@@ -90,7 +90,7 @@ std::string needs_section(const std::string& measured_by, const std::vector<Need
   std::string text =
       fmt::format("## {}\n\n{}", needs_title, measured_by) +
       "The time of stages that do only what the frame needs, over what they would take if they did all of "
-      "it, on one thread / on all, least and most of the views; and what is left on one of them. Where both "
+      "it, on one thread/on all, least and most of the views; and what is left on one of them. Where both "
       "were run, both gave the same bits, or the row says that they did not; rows without times only count. "
       "(Behind shafts only the dark points are compared: at the others rays are as noisy as without.) Tests "
       "check the same: `tests/render/needs_test.cpp`.\n\n"
