@@ -1,13 +1,25 @@
 #!/bin/bash
-# Draws docs/scenes.png: the bundled scenes, BART, and free models. Needs ImageMagick.
+# Draws docs/modes.png (one room with hard shadows, soft ones, occlusion, both) and docs/scenes.png (the bundled scenes,
+# BART, and free models). Needs ImageMagick.
 # Usage: tools/draw_scenes.sh PROGRAM MODELS    MODELS: a folder with bart/, gltf/ and obj/ as the list below has them
 set -euo pipefail
-[[ $# == 2 ]] || { sed -n '2,3s/^# //p' "$0" >&2; exit 2; }
+[[ $# == 2 ]] || { sed -n '2,4s/^# //p' "$0" >&2; exit 2; }
 program=$(realpath "$1") models=$(realpath "$2")
 cd "$(dirname "$0")/.."
 work=$(mktemp -d)
 trap 'rm -r "$work"' EXIT
 count=0
+
+draw_mode() {
+  "$program" render scenes/room.glb --size 600x450 --antialias 8 "${@:2}" -o "$work/mode_$1.png" --quiet
+}
+
+draw_mode 1 --shadows hard
+draw_mode 2 --shadows soft
+draw_mode 3 --shadows hard --ao adaptive --ao-error 1
+draw_mode 4 --shadows soft --ao adaptive --ao-error 1
+montage "$work"/mode_*.png -tile 4x -resize 300x -geometry +2+2 -background white "$work/modes.png"
+convert "$work/modes.png" -alpha off -define png:compression-level=9 -strip docs/modes.png
 
 draw() {
   count=$((count + 1))
