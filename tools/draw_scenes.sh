@@ -19,7 +19,7 @@ draw_mode 2 --shadows soft
 draw_mode 3 --shadows hard --ao adaptive --ao-error 1
 draw_mode 4 --shadows soft --ao adaptive --ao-error 1
 montage "$work"/mode_*.png -tile 4x -resize 300x -geometry +2+2 -background white "$work/modes.png"
-convert "$work/modes.png" -alpha off -define png:compression-level=9 -strip docs/modes.png
+convert "$work/modes.png" -alpha off -depth 8 -define png:compression-level=9 -strip docs/modes.png
 
 draw() {
   count=$((count + 1))
