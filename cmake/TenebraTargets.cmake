@@ -1,7 +1,14 @@
 # tenebra_library(NAME ...): the library tenebra_NAME from src/NAME, linked to what follows
 # (arguments as target_link_libraries takes them). A folder without .cpp files is header-only.
-function(tenebra_library name)
-  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${name}/*.cpp)
+# Folders of TENEBRA_ROOMS_APART, as io/exr, are no part of the folder above: tenebra_library(io/exr) makes tenebra_io_exr.
+function(tenebra_library folder)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${folder}/*.cpp)
+  foreach(room ${TENEBRA_ROOMS_APART})
+    if(NOT room STREQUAL folder)
+      list(FILTER sources EXCLUDE REGEX "/src/${room}/")
+    endif()
+  endforeach()
+  string(REPLACE "/" "_" name ${folder})
   if(sources)
     add_library(tenebra_${name} STATIC ${sources})
     target_include_directories(tenebra_${name} PUBLIC

@@ -51,7 +51,7 @@ Expected<void> write_files(const AoSession& session, const std::vector<std::stri
   if (csv.empty()) return {};
   for (const auto& [name, picture] : session.pictures) {
     const auto path = csv.parent_path() / fmt::format("{}_{}.png", csv.stem().string(), name);
-    if (auto written = base::write_png(path, picture); !written) return written;
+    if (auto written = io::write_png(path, picture); !written) return written;
   }
   return {};
 }

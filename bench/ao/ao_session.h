@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "ao/field/displacement_field.h"
-#include "base/image.h"
 #include "bench/common/bench_parts.h"
+#include "io/image.h"
 
 namespace tenebra::bench {
 
@@ -43,7 +43,7 @@ struct AoSession {
   AoHeadline headline{};
   std::vector<double> scene_speedups{}, exact_speedups{};  ///< one for each view and size
   std::vector<std::string> notes{};  ///< sentences: what was missing, replaced or out of bounds
-  std::vector<std::pair<std::string, base::Image8>>
+  std::vector<std::pair<std::string, io::Image8>>
       pictures{};  ///< to be written as STEM_name.png beside the CSV
 
   /// Tables of the default size, or small ones where figures mean nothing.

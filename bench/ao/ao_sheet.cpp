@@ -33,7 +33,7 @@ constexpr std::array<std::array<std::uint8_t, 5>, 14> glyphs{{{7, 5, 5, 5, 7},
                                                               {0, 3, 2, 1, 3},
                                                               {0, 7, 7, 5, 5}}};
 
-void write_text(base::Image8& image, int left, int top, const std::string& text) {
+void write_text(io::Image8& image, int left, int top, const std::string& text) {
   constexpr int size = 2;
   for (const char c : text) {
     const auto known = characters.find(c);
@@ -95,9 +95,9 @@ std::uint8_t Sheet::shade(const Seen& seen, std::span<const float> values, bool 
   return static_cast<std::uint8_t>(std::lround(255 * std::clamp(1 - closed, 0.0f, 1.0f)));
 }
 
-base::Image8 Sheet::picture() const {
+io::Image8 Sheet::picture() const {
   const int rows = (static_cast<int>(cells_.size()) + columns - 1) / columns;
-  base::Image8 image{columns * cell_width, rows * cell_height, 3, {}};
+  io::Image8 image{columns * cell_width, rows * cell_height, 3, {}};
   image.pixels.assign(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 3,
                       255);
   for (std::size_t c = 0; c < cells_.size(); ++c) {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "base/image.h"
 #include "bench/ao/ao_peer.h"
 #include "bench/ao/ao_receivers.h"
+#include "io/image.h"
 
 namespace tenebra::bench {
 
@@ -23,7 +23,7 @@ public:
   void add(std::span<const float> values, const std::string& title, const std::string& caption);
 
   /// Four cells to a row; RGB.
-  base::Image8 picture() const;
+  io::Image8 picture() const;
 
 private:
   struct Seen {

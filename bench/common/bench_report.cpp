@@ -7,8 +7,8 @@
 #include <cstdio>
 
 #include "base/machine.h"
-#include "base/output_file.h"
 #include "base/statistics.h"
+#include "io/output_file.h"
 
 namespace tenebra::bench {
 namespace {
@@ -37,7 +37,7 @@ void progress(const std::string& text) {
 
 Expected<void> Report::check() const {
   if (csv_.empty()) return {};
-  const auto file = base::OutputFile::create(csv_);
+  const auto file = io::OutputFile::create(csv_);
   if (!file) return tl::unexpected(file.error());
   return {};
 }
@@ -52,10 +52,10 @@ Expected<void> Report::write(std::span<const std::string> settings) const {
                         csv_field(f.contestant), csv_field(f.parameter), csv_field(f.quantity), f.value,
                         csv_field(f.unit));
   }
-  if (auto written = base::write_file(csv_, text); !written) return written;
+  if (auto written = io::write_file(csv_, text); !written) return written;
   for (const auto& [name, svg] : plots_) {
     const auto path = csv_.parent_path() / fmt::format("{}_{}.svg", csv_.stem().string(), name);
-    if (auto written = base::write_file(path, svg); !written) return written;
+    if (auto written = io::write_file(path, svg); !written) return written;
   }
   return {};
 }

@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "base/image.h"
 #include "bench/common/packet_tracer.h"
+#include "io/image.h"
 #include "shade/surfaces.h"
 
 namespace tenebra::bench {
@@ -38,7 +38,7 @@ public:
   EmbreeFrameTimes draw(int frame, bool split = false);
   /// What the rays of the frame drawn last take by another plan, which is kept. Milliseconds.
   double retrace(const PacketPlan& plan);
-  const base::Image8& image() const { return image_; }
+  const io::Image8& image() const { return image_; }
   TreeKind kind() const { return kind_; }
   const PacketPlan& plan() const { return plan_; }
   const EmbreeTree& tree() const { return *tree_; }
@@ -62,7 +62,7 @@ private:
   float wide_m_ = 0;
   std::vector<std::uint32_t> ids_;
   std::vector<std::vector<std::uint8_t>> masks_;  // of each light
-  base::Image8 image_;
+  io::Image8 image_;
 };
 
 }  // namespace tenebra::bench

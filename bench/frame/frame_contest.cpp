@@ -80,7 +80,7 @@ std::unique_ptr<EmbreeRenderer> choose(const FrameTask& task, const std::vector<
   return best;
 }
 
-double differing_share(const base::Image8& a, const base::Image8& b) {
+double differing_share(const io::Image8& a, const io::Image8& b) {
   std::size_t differing = 0;
   const std::size_t pixels = a.pixels.size() / 3;
   for (std::size_t i = 0; i < pixels; ++i) {

@@ -6,13 +6,13 @@
 #include <memory>
 
 #include "base/fail.h"
-#include "base/output_file.h"
 #include "bench/common/bench_command.h"
 #include "bench/common/bench_frame.h"
 #include "bench/common/bench_report.h"
 #include "bench/common/bench_scenes.h"
 #include "bench/hash/hash_frame.h"
 #include "bench/hash/picture_hashes.h"
+#include "io/output_file.h"
 
 namespace tenebra::bench {
 namespace {
@@ -114,7 +114,7 @@ Expected<void> add_scene(const HashedScene& chosen, const HashArguments& argumen
 }
 
 Expected<void> write(const HashArguments& arguments, const std::string& text) {
-  if (!arguments.out.empty()) return base::write_file(arguments.out, text);
+  if (!arguments.out.empty()) return io::write_file(arguments.out, text);
   std::fputs(text.c_str(), stdout);
   return {};
 }

@@ -7,10 +7,10 @@
 #include <memory>
 
 #include "base/fail.h"
-#include "base/output_file.h"
 #include "bench/common/bench_frame.h"
 #include "bench/common/bench_scenes.h"
 #include "bench/paper/paper_session.h"
+#include "io/output_file.h"
 
 namespace tenebra::bench {
 namespace {
@@ -29,7 +29,7 @@ Expected<void> check_paper(const PaperOptions& options) {
   if (!std::filesystem::is_directory(options.docs, ignored))
     return base::fail("--docs: {} is not a folder, expected one to write papers.md to",
                       options.docs.string());
-  const auto page = base::OutputFile::create(options.docs / "papers.md");
+  const auto page = io::OutputFile::create(options.docs / "papers.md");
   return page ? Expected<void>() : tl::unexpected(page.error());
 }
 

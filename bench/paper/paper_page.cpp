@@ -5,9 +5,9 @@
 #include <array>
 
 #include "base/machine.h"
-#include "base/output_file.h"
 #include "bench/common/bench_page.h"
 #include "bench/paper/paper_session.h"
+#include "io/output_file.h"
 #include "parallel/parallel.h"
 
 namespace tenebra::bench {
@@ -64,14 +64,14 @@ Expected<void> write_paper_page(const PaperSession& session) {
       text = section_text(section, made_by(session, part));
       for (const auto& [name, svg] : section.plots) {
         const auto plot = session.paper.docs / fmt::format("papers_{}.svg", name);
-        if (auto written = base::write_file(plot, svg); !written) return written;
+        if (auto written = io::write_file(plot, svg); !written) return written;
       }
     }
     while (text.ends_with('\n')) text.pop_back();
     page += text + "\n\n";
   }
   page.pop_back();
-  return base::write_file(path, page);
+  return io::write_file(path, page);
 }
 
 }  // namespace tenebra::bench

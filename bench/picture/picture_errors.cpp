@@ -14,7 +14,7 @@ double root_mean(double sum, std::size_t count) {
 
 }  // namespace
 
-PictureError picture_error(const base::Image8& picture, const base::Image8& reference) {
+PictureError picture_error(const io::Image8& picture, const io::Image8& reference) {
   assert(picture.pixels.size() == reference.pixels.size());
   double sum = 0;
   std::size_t missed = 0;
@@ -42,8 +42,8 @@ double ChangeSums::flicker() const {
   return root_mean(apart, values);
 }
 
-void add_change(const base::Image8& before, const base::Image8& after, const base::Image8& reference_before,
-                const base::Image8& reference_after, ChangeSums& sums) {
+void add_change(const io::Image8& before, const io::Image8& after, const io::Image8& reference_before,
+                const io::Image8& reference_after, ChangeSums& sums) {
   assert(before.pixels.size() == reference_after.pixels.size());
   for (std::size_t i = 0; i < after.pixels.size(); ++i) {
     const int change = int{after.pixels[i]} - int{before.pixels[i]},

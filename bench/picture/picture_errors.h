@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "base/image.h"
+#include "io/image.h"
 
 namespace tenebra::bench {
 
@@ -14,7 +14,7 @@ struct PictureError {
   double missed = 0;  ///< share of the pixels that are off by more than missed_step in a channel
 };
 /// Of two pictures of one size and three channels.
-PictureError picture_error(const base::Image8& picture, const base::Image8& reference);
+PictureError picture_error(const io::Image8& picture, const io::Image8& reference);
 
 /// Of the changes from one frame to the next: sums over frames, pixels and channels.
 struct ChangeSums {
@@ -27,7 +27,7 @@ struct ChangeSums {
   double reference_rms() const;  ///< likewise
   double flicker() const;        ///< of what changes less what changes in the reference
 };
-void add_change(const base::Image8& before, const base::Image8& after, const base::Image8& reference_before,
-                const base::Image8& reference_after, ChangeSums& sums);
+void add_change(const io::Image8& before, const io::Image8& after, const io::Image8& reference_before,
+                const io::Image8& reference_after, ChangeSums& sums);
 
 }  // namespace tenebra::bench

@@ -26,12 +26,12 @@ struct Changes {
 
 Expected<Changes> measure_run(PictureMaker& maker, int first, int frames, const std::string& name) {
   Changes changes;
-  base::Image8 before[3], reference_before;
+  io::Image8 before[3], reference_before;
   for (int frame = first; frame < first + frames; ++frame) {
     maker.evaluate(frame);
     const auto drawn = maker.draw(reference_sampling);
     if (!drawn) return tl::unexpected(drawn.error());
-    const base::Image8 reference = **drawn;
+    const io::Image8 reference = **drawn;
     for (int k = 0; k < 3; ++k) {
       const auto picture = maker.draw({sample_counts[k]});
       if (!picture) return tl::unexpected(picture.error());

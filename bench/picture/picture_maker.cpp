@@ -21,7 +21,7 @@ Expected<PictureMaker> PictureMaker::create(const DrawTask& task) {
   return PictureMaker(std::move(*renderer));
 }
 
-Expected<const base::Image8*> PictureMaker::draw(const Sampling& sampling, const glm::dvec2& shift) {
+Expected<const io::Image8*> PictureMaker::draw(const Sampling& sampling, const glm::dvec2& shift) {
   render::RenderSettings settings = renderer_.settings();
   settings.terminator = render::Terminator::smooth;
   settings.antialias = sampling.samples;

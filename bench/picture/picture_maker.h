@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "base/image.h"
 #include "bench/common/scene_renderer.h"
+#include "io/image.h"
 
 namespace tenebra::bench {
 
@@ -26,7 +26,7 @@ public:
   void evaluate(int frame) { renderer_.evaluate(frame); }
   /// The picture of the frame evaluated last, its camera moved by `shift` pixels to the right and down. Valid
   /// until the next call.
-  Expected<const base::Image8*> draw(const Sampling& sampling, const glm::dvec2& shift = {0, 0});
+  Expected<const io::Image8*> draw(const Sampling& sampling, const glm::dvec2& shift = {0, 0});
   /// Of the last picture, but for evaluating the scene, in milliseconds.
   double total_ms() const { return renderer_.result().timings.total_ms; }
   /// Of the last picture: pixels that got more than one sample.

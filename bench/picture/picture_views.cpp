@@ -27,7 +27,7 @@ Expected<ViewResult> measure_view(PictureMaker& maker, int pixels, int rounds) {
   ViewResult result;
   const auto drawn = maker.draw(reference_sampling);
   if (!drawn) return tl::unexpected(drawn.error());
-  const base::Image8 reference = **drawn;
+  const io::Image8 reference = **drawn;
   std::vector<double> times[3];
   for (int round = 0; round <= rounds; ++round) {  // the first is not timed
     for (int k = 0; k < 3; ++k) {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/image.h"
+#include "io/image.h"
 
 namespace tenebra::bench {
 namespace {
@@ -18,9 +18,9 @@ std::uint8_t encoded(double linear) {
 
 Expected<void> write_irradiance(std::span<const float> irradiance, double white, int width, int height,
                                 const std::filesystem::path& path) {
-  base::Image8 image{width, height, 1, {}};
+  io::Image8 image{width, height, 1, {}};
   for (const float e : irradiance) image.pixels.push_back(encoded(static_cast<double>(e) / white));
-  return base::write_png(path, image);
+  return io::write_png(path, image);
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 
 #include <tenebra/threads.h>
 #include "base/fail.h"
-#include "base/output_file.h"
 #include "bench/trade/trade_session.h"
+#include "io/output_file.h"
 
 namespace tenebra::bench {
 namespace {
@@ -26,7 +26,7 @@ Expected<void> check(const TradeOptions& options) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(options.docs, ignored))
     return base::fail("--docs: {} is not a folder, expected one to write trade.md to", options.docs.string());
-  const auto page = base::OutputFile::create(options.docs / "trade.md");
+  const auto page = io::OutputFile::create(options.docs / "trade.md");
   return page ? Expected<void>() : tl::unexpected(page.error());
 }
 

@@ -36,11 +36,11 @@ public:
       for (std::size_t x = 0; x < side_; ++x)
         image_.pixels[(y0 + y) * static_cast<std::size_t>(image_.width) + x0 + x] = value(x, y);
   }
-  const base::Image8& image() const { return image_; }
+  const io::Image8& image() const { return image_; }
 
 private:
   std::size_t side_;
-  base::Image8 image_;
+  io::Image8 image_;
 };
 
 /// Large where errors are large and little else is to be seen.

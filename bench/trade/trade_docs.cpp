@@ -4,11 +4,11 @@
 #include <algorithm>
 
 #include "base/machine.h"
-#include "base/output_file.h"
 #include "bench/common/bench_page.h"
 #include "bench/trade/trade_advice.h"
 #include "bench/trade/trade_pair_docs.h"
 #include "bench/trade/trade_session.h"
+#include "io/output_file.h"
 #include "parallel/parallel.h"
 
 namespace tenebra::bench {
@@ -279,11 +279,11 @@ Expected<void> write_trade_page(const TradeSession& session) {
   const std::filesystem::path& docs = session.trade.docs;
   for (const TradeTable& table : session.tables) {
     const std::string stem = "trade_" + plot_name(table);
-    if (auto written = base::write_file(docs / (stem + ".svg"), trade_plot(table)); !written) return written;
+    if (auto written = io::write_file(docs / (stem + ".svg"), trade_plot(table)); !written) return written;
     if (!table.crops) continue;
-    if (auto written = base::write_png(docs / (stem + ".png"), table.crops->image); !written) return written;
+    if (auto written = io::write_png(docs / (stem + ".png"), table.crops->image); !written) return written;
   }
-  return base::write_file(docs / "trade.md", page);
+  return io::write_file(docs / "trade.md", page);
 }
 
 }  // namespace tenebra::bench

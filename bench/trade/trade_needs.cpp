@@ -108,7 +108,7 @@ Expected<void> need_lights(TradeSession& session, const Scene& original, const H
   auto renderer = render::Renderer::create(std::move(*context), scene);
   if (!renderer) return tl::unexpected(renderer.error());
   const render::RenderSettings settings{.width = view.frame.points.width, .height = view.frame.points.height};
-  base::Image8 images[2];
+  io::Image8 images[2];
   double ms[2] = {0, 0};
   for (const int lit : {0, 1}) {
     scene.lights.back().intensity = lit == 0 ? 0.0f : 1e-30f;  // adds nothing that a picture holds

@@ -51,7 +51,7 @@ public:
 
   double ms() const { return median(times_); }
   double spent_ms() const { return std::accumulate(times_.begin(), times_.end(), 0.0); }
-  const base::Image8& image() const { return result_.image; }
+  const io::Image8& image() const { return result_.image; }
 
 private:
   Drawer(const Drawing& drawing, render::Renderer renderer)

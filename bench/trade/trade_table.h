@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "base/image.h"
 #include "bench/common/bench_report.h"
+#include "io/image.h"
 
 namespace tenebra::bench {
 
@@ -33,7 +33,7 @@ struct TradePoint {
 
 /// Pieces of pictures side by side, and what they are from the left on.
 struct TradeCrops {
-  base::Image8 image;
+  io::Image8 image;
   std::string caption;
 };
 

@@ -82,7 +82,7 @@ py::array given_away_vectors(std::vector<Vector>&& values, std::vector<py::ssize
   return py::array_t<T>(std::move(shape), reinterpret_cast<const T*>(kept->data()), owner);
 }
 template <class T>
-py::array image(base::Image<T>&& from) {
+py::array image(io::Image<T>&& from) {
   std::vector<py::ssize_t> shape{from.height, from.width};
   if (from.channels > 1) shape.push_back(from.channels);
   return given_away(std::move(from.pixels), std::move(shape));
@@ -288,7 +288,7 @@ py::dict timings_dict(const FrameTimings& timings) {
 /// What was asked for with --aov, under the words of that option.
 void add_aovs(const render::AovChoice& wanted, render::Aovs&& aovs, py::ssize_t height, py::ssize_t width,
               py::dict& out) {
-  const auto add_picture = [&](const char* name, base::ImageF& from) {
+  const auto add_picture = [&](const char* name, io::ImageF& from) {
     if (!from.pixels.empty()) out[name] = image(std::move(from));
   };
   const auto add_numbers = [&](const char* name, std::vector<std::uint32_t>& from) {

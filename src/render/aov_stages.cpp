@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t pixels_at_once = 4096;
 
-base::ImageF empty_picture(const visibility::VisibleIds& seen, int channels, float value) {
+io::ImageF empty_picture(const visibility::VisibleIds& seen, int channels, float value) {
   const auto count = static_cast<std::size_t>(seen.width) * static_cast<std::size_t>(seen.height);
   return {seen.width, seen.height, channels,
           std::vector<float>(count * static_cast<std::size_t>(channels), value)};
@@ -27,12 +27,12 @@ glm::dvec3 view_axis(const ViewRays& view) {
   return glm::dot(axis, d0) < 0 ? -axis : axis;
 }
 
-base::ImageF colors_of(const shade::Subject& subject, const shade::Lighting& lighting,
-                       const shade::PixelSamples& pixels) {
-  base::Image8 unused;
+io::ImageF colors_of(const shade::Subject& subject, const shade::Lighting& lighting,
+                     const shade::PixelSamples& pixels) {
+  io::Image8 unused;
   std::vector<glm::vec3> colors;
   shade::shade_picture(subject, lighting, pixels, {}, unused, &colors);
-  base::ImageF out{pixels.width, pixels.height, 3, std::vector<float>(3 * colors.size())};
+  io::ImageF out{pixels.width, pixels.height, 3, std::vector<float>(3 * colors.size())};
   for (std::size_t i = 0; i < colors.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c) out.pixels[3 * i + c] = colors[i][static_cast<int>(c)];
   return out;
@@ -56,7 +56,7 @@ void find_numbers(const FrameGeometry& geometry, const std::vector<std::uint32_t
 std::vector<LightVisibility> visibilities(const std::vector<LightMask>& masks) {
   std::vector<LightVisibility> out;
   for (const LightMask& mask : masks) {
-    base::ImageF& fraction = out.emplace_back(LightVisibility{mask.light, {}}).fraction;
+    io::ImageF& fraction = out.emplace_back(LightVisibility{mask.light, {}}).fraction;
     fraction = {mask.mask.width, mask.mask.height, 1, std::vector<float>(mask.mask.pixels.size())};
     for (std::size_t i = 0; i < fraction.pixels.size(); ++i) fraction.pixels[i] = visible_fraction(mask, i);
   }
@@ -87,9 +87,9 @@ void Renderer::State::find_surfaces_seen(const FrameInput& input, const AovChoic
 }
 
 /// What white diffuse surfaces without textures show, times pi where the lights have units.
-base::ImageF Renderer::State::irradiance_seen(const shade::Subject& subject,
-                                              const std::vector<DrawnLight>& lights,
-                                              const shade::PixelSamples& pixels) const {
+io::ImageF Renderer::State::irradiance_seen(const shade::Subject& subject,
+                                            const std::vector<DrawnLight>& lights,
+                                            const shade::PixelSamples& pixels) const {
   const Material white{.base_color = glm::vec3(1.0f), .model = SurfaceModel::phong};
   const shade::SurfaceTable surface(std::span(&white, 1));
   std::vector<DrawnLight> without_units = lights;
@@ -100,14 +100,14 @@ base::ImageF Renderer::State::irradiance_seen(const shade::Subject& subject,
 }
 
 /// What shows where each surface shines by itself in its base colour. The surfaces are as before afterwards.
-base::ImageF Renderer::State::albedo_seen(const FrameInput& input, const shade::PixelSamples& pixels) {
+io::ImageF Renderer::State::albedo_seen(const FrameInput& input, const shade::PixelSamples& pixels) {
   std::vector<Material> shining = scene.materials;
   for (Material& material : shining) {
     material.model = SurfaceModel::unlit;
     material.emissive = glm::vec3(0.0f);
   }
   surfaces.set_factors(shining);
-  base::ImageF out = colors_of({input.geometry, input.view, surfaces}, {{}, glm::vec3(0.0f)}, pixels);
+  io::ImageF out = colors_of({input.geometry, input.view, surfaces}, {{}, glm::vec3(0.0f)}, pixels);
   surfaces.set_factors(scene.materials);
   return out;
 }

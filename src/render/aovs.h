@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/image.h"
+#include "io/image.h"
 
 namespace tenebra::render {
 
@@ -24,24 +24,24 @@ struct AovChoice {
 
 /// How much of a light each pixel sees, behind opaque casters: its mask, whatever found it.
 struct LightVisibility {
-  int light = -1;         ///< as LightMask::light
-  base::ImageF fraction;  ///< 0 to 1; of a light without an area 0 or 1; 0: background
+  int light = -1;       ///< as LightMask::light
+  io::ImageF fraction;  ///< 0 to 1; of a light without an area 0 or 1; 0: background
 };
 
 /// Of the opaque surface that each pixel's centre sees; nothing is smoothed. Each is of the frame's width and
 /// height, row 0 at the top: one value per pixel, or three (normal, irradiance, albedo). Empty where not
 /// wanted.
 struct Aovs {
-  base::ImageF depth;              ///< metres along the view axis from the eye's plane; infinite: background
+  io::ImageF depth;                ///< metres along the view axis from the eye's plane; infinite: background
   std::vector<std::uint32_t> ids;  ///< triangle, its index in FrameGeometry; no_triangle: background
   std::vector<std::uint32_t> parts;      ///< likewise: which of FrameGeometry::parts, a mesh at its node
   std::vector<std::uint32_t> materials;  ///< likewise: index into Scene::materials
-  base::ImageF normal;  ///< shading normal, unit, in world space, to the eye's side; 0: background
+  io::ImageF normal;  ///< shading normal, unit, in world space, to the eye's side; 0: background
   std::vector<LightVisibility> visibility;  ///< one for each of FrameResult::masks
-  base::ImageF irradiance;  ///< RGB of all lights with their shadows, without ambient light: lux, or for
-                            ///< lights without units (BART) intensity times the cosine
-  base::ImageF openness;    ///< ambient occlusion: 1 open to 0 closed; 1: background
-  base::ImageF albedo;  ///< RGB: the base colour with its textures and the vertices' colours; 0: background
+  io::ImageF irradiance;  ///< RGB of all lights with their shadows, without ambient light: lux, or for
+                          ///< lights without units (BART) intensity times the cosine
+  io::ImageF openness;    ///< ambient occlusion: 1 open to 0 closed; 1: background
+  io::ImageF albedo;      ///< RGB: the base colour with its textures and the vertices' colours; 0: background
 };
 
 }  // namespace tenebra::render

@@ -16,7 +16,7 @@ Expected<void> CpuShading::begin(const ShadingTask& task) {
   return {};
 }
 
-Expected<void> CpuShading::shade_centres(const shade::PixelSamples& centres, base::Image8& picture) {
+Expected<void> CpuShading::shade_centres(const shade::PixelSamples& centres, io::Image8& picture) {
   if (!frame_->keeps_linear) centres_.clear();
   shade::shade_picture(frame_->subject, frame_->lighting, centres, frame_->display, picture,
                        frame_->keeps_linear ? &centres_ : nullptr);
@@ -24,7 +24,7 @@ Expected<void> CpuShading::shade_centres(const shade::PixelSamples& centres, bas
 }
 
 Expected<void> CpuShading::replace_centres(std::span<const std::uint32_t> pixels,
-                                           std::span<const glm::vec3> colors, base::Image8& picture) {
+                                           std::span<const glm::vec3> colors, io::Image8& picture) {
   const shade::Display& display = frame_->display;
   parallel::parallel_ranges(pixels.size(), 1024, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
@@ -36,7 +36,7 @@ Expected<void> CpuShading::replace_centres(std::span<const std::uint32_t> pixels
   return {};
 }
 
-Expected<void> CpuShading::copy_linear(base::ImageF& out) {
+Expected<void> CpuShading::copy_linear(io::ImageF& out) {
   out = {frame_->width, frame_->height, 3, std::vector<float>(3 * centres_.size())};
   std::memcpy(out.pixels.data(), centres_.data(), sizeof(float) * out.pixels.size());
   return {};
@@ -94,7 +94,7 @@ Expected<void> CpuShading::add_samples(const shade::Samples& samples, const Samp
   return add_colors(shares, shaded_);
 }
 
-Expected<void> CpuShading::finish_means(base::Image8& picture, base::ImageF& linear) {
+Expected<void> CpuShading::finish_means(io::Image8& picture, io::ImageF& linear) {
   const float share = 1.0f / static_cast<float>(means_.samples);
   parallel::parallel_ranges(means_.pixels.size(), at_once, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)

@@ -14,15 +14,15 @@ namespace tenebra::render {
 class CpuShading : public FrameShading {
 public:
   Expected<void> begin(const ShadingTask& task) override;
-  Expected<void> shade_centres(const shade::PixelSamples& centres, base::Image8& picture) override;
+  Expected<void> shade_centres(const shade::PixelSamples& centres, io::Image8& picture) override;
   Expected<void> replace_centres(std::span<const std::uint32_t> pixels, std::span<const glm::vec3> colors,
-                                 base::Image8& picture) override;
-  Expected<void> copy_linear(base::ImageF& out) override;
+                                 io::Image8& picture) override;
+  Expected<void> copy_linear(io::ImageF& out) override;
   Expected<void> shade_samples(const shade::Samples& samples, std::vector<shade::ShadedSample>& out) override;
   Expected<void> begin_means(const MeansTask& task) override;
   Expected<void> add_colors(const SampleShares& shares, std::span<const shade::ShadedSample> colors) override;
   Expected<void> add_samples(const shade::Samples& samples, const SampleShares& shares) override;
-  Expected<void> finish_means(base::Image8& picture, base::ImageF& linear) override;
+  Expected<void> finish_means(io::Image8& picture, io::ImageF& linear) override;
 
 private:
   void add_linear(const SampleShares& shares, std::span<const shade::ShadedSample> colors);

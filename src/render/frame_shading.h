@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <tenebra/expected.h>
-#include "base/image.h"
+#include "io/image.h"
 #include "shade/display.h"
 #include "shade/shading.h"
 
@@ -54,12 +54,12 @@ public:
   /// What pixels see is known now, and what lights there are, but not yet what reaches the pixels.
   virtual Expected<void> begin(const ShadingTask& task) = 0;
   /// The picture of the pixels' centres.
-  virtual Expected<void> shade_centres(const shade::PixelSamples& centres, base::Image8& picture) = 0;
+  virtual Expected<void> shade_centres(const shade::PixelSamples& centres, io::Image8& picture) = 0;
   /// Gives other linear colours to some pixels of it.
   virtual Expected<void> replace_centres(std::span<const std::uint32_t> pixels,
-                                         std::span<const glm::vec3> colors, base::Image8& picture) = 0;
+                                         std::span<const glm::vec3> colors, io::Image8& picture) = 0;
   /// The linear colours of the centres, three channels.
-  virtual Expected<void> copy_linear(base::ImageF& out) = 0;
+  virtual Expected<void> copy_linear(io::ImageF& out) = 0;
   /// The linear colours of a list of samples.
   virtual Expected<void> shade_samples(const shade::Samples& samples,
                                        std::vector<shade::ShadedSample>& out) = 0;
@@ -72,7 +72,7 @@ public:
   /// Shades samples and adds them.
   virtual Expected<void> add_samples(const shade::Samples& samples, const SampleShares& shares) = 0;
   /// Writes the means over the picture and, where wanted, over the linear colours of the centres.
-  virtual Expected<void> finish_means(base::Image8& picture, base::ImageF& linear) = 0;
+  virtual Expected<void> finish_means(io::Image8& picture, io::ImageF& linear) = 0;
 };
 
 }  // namespace tenebra::render

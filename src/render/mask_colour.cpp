@@ -13,15 +13,15 @@ std::uint8_t in_levels(float fraction) {
   return static_cast<std::uint8_t>(std::lround(255.0f * fraction));
 }
 
-base::Image8 in_levels(const base::ImageF& fractions) {
-  base::Image8 out{fractions.width, fractions.height, fractions.channels, {}};
+io::Image8 in_levels(const io::ImageF& fractions) {
+  io::Image8 out{fractions.width, fractions.height, fractions.channels, {}};
   out.pixels.reserve(fractions.pixels.size());
   for (const float fraction : fractions.pixels) out.pixels.push_back(in_levels(fraction));
   return out;
 }
 
-base::ImageF mask_colour(const LightMask& mask) {
-  base::ImageF out{mask.mask.width, mask.mask.height, 3, {}};
+io::ImageF mask_colour(const LightMask& mask) {
+  io::ImageF out{mask.mask.width, mask.mask.height, 3, {}};
   out.pixels.reserve(3 * mask.mask.pixels.size());
   for (std::size_t i = 0; i < mask.mask.pixels.size(); ++i)
     out.pixels.insert(out.pixels.end(), 3, visible_fraction(mask, i));
@@ -31,7 +31,7 @@ base::ImageF mask_colour(const LightMask& mask) {
   return out;
 }
 
-base::Image8 mask_colour8(const LightMask& mask) {
+io::Image8 mask_colour8(const LightMask& mask) {
   return in_levels(mask_colour(mask));
 }
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "base/image.h"
+#include "io/image.h"
 #include "render/renderer.h"
 
 namespace tenebra::render {
@@ -14,11 +14,11 @@ float visible_fraction(const LightMask& mask, std::size_t pixel);
 
 /// Fractions times 255, rounded.
 std::uint8_t in_levels(float fraction);
-base::Image8 in_levels(const base::ImageF& fractions);
+io::Image8 in_levels(const io::ImageF& fractions);
 
 /// Three channels, 0 to 1: what is lit (soft: the visible fraction) times LightMask::tint.
-base::ImageF mask_colour(const LightMask& mask);
+io::ImageF mask_colour(const LightMask& mask);
 /// The same times 255, rounded; without a tint each channel is the mask.
-base::Image8 mask_colour8(const LightMask& mask);
+io::Image8 mask_colour8(const LightMask& mask);
 
 }  // namespace tenebra::render

@@ -98,7 +98,7 @@ const std::vector<DrawnLight>& Renderer::drawn_lights() const {
   return state_->drawn;
 }
 
-void Renderer::set_environment(const base::ImageF& picture) {
+void Renderer::set_environment(const io::ImageF& picture) {
   state_->environment.emplace(picture);
 }
 

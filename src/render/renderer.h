@@ -16,7 +16,7 @@
 #include <tenebra/soft_shadows.h>
 #include <tenebra/stop_flag.h>
 #include <tenebra/tint.h>
-#include "base/image.h"
+#include "io/image.h"
 #include "render/antialias/antialias_stats.h"
 #include "render/aovs.h"
 #include "render/frame_raster.h"
@@ -104,19 +104,19 @@ struct FrameInput {
 };
 
 struct LightMask {
-  int light = -1;     ///< index into FrameInput::lights; emissive meshes that shine follow them
-  base::Image8 mask;  ///< 255 lit, 0 shadowed, facing away, out of reach or background; soft: 255 x fraction
-  base::ImageF
+  int light = -1;   ///< index into FrameInput::lights; emissive meshes that shine follow them
+  io::Image8 mask;  ///< 255 lit, 0 shadowed, facing away, out of reach or background; soft: 255 x fraction
+  io::ImageF
       visible_fraction;      ///< soft mode: visible part of the light, 0..1 (0 or 1 of a point); else empty
   std::vector<float> nodes;  ///< hard, with RenderSettings::diagnostics: ShadowTracer::pixel_nodes
-  base::ImageF error;  ///< soft, with RenderSettings::error_maps: SoftShadowTracer::errors(), 0 where exact
+  io::ImageF error;  ///< soft, with RenderSettings::error_maps: SoftShadowTracer::errors(), 0 where exact
   std::vector<std::uint8_t> classes;  ///< exact soft shadows: a SoftClass per pixel, to display; else empty
   TintMask tint;  ///< what see-through surfaces leave of the light's colours; the mask is of opaque casters
 
   // With RenderSettings::antialias above 1. All else here is of the pixels' centres.
-  base::ImageF mean;                  ///< with mask_means: visible fraction, 0..1, mean over the samples
-  std::vector<base::Image8> samples;  ///< with sample_masks: `mask` of each sample, the centre first if it
-                                      ///< counts; a pixel that needs only one has its centre's in all
+  io::ImageF mean;                  ///< with mask_means: visible fraction, 0..1, mean over the samples
+  std::vector<io::Image8> samples;  ///< with sample_masks: `mask` of each sample, the centre first if it
+                                    ///< counts; a pixel that needs only one has its centre's in all
 };
 
 /// What traced a light without an area.
@@ -126,10 +126,10 @@ struct LightMethod {
 };
 
 struct FrameResult {
-  base::Image8 image;        ///< RGB, encoded as Scene::transfer says; the mean of what the samples show
-  base::ImageF linear;       ///< RenderSettings::linear: RGB of the pixels' centres before exposure and tone
-  base::ImageF linear_mean;  ///< RenderSettings::linear_mean: the same, but the mean over a pixel's samples
-  Aovs aovs;                 ///< RenderSettings::aovs: depth, ids, normals, visibility, irradiance, ...
+  io::Image8 image;        ///< RGB, encoded as Scene::transfer says; the mean of what the samples show
+  io::ImageF linear;       ///< RenderSettings::linear: RGB of the pixels' centres before exposure and tone
+  io::ImageF linear_mean;  ///< RenderSettings::linear_mean: the same, but the mean over a pixel's samples
+  Aovs aovs;               ///< RenderSettings::aovs: depth, ids, normals, visibility, irradiance, ...
   std::vector<std::uint8_t> seen;  ///< RenderSettings::linear: 1 where a pixel sees a triangle
   std::vector<LightMask> masks;    ///< one per light drawn, of those with an intensity; empty without shadows
   std::vector<LightMethod> methods;  ///< of the lights that had hard shadows
@@ -166,7 +166,7 @@ public:
   void set_materials(const std::vector<Material>& materials);
 
   /// The surroundings of the scene, in place of its background and ambient light: shade/environment.h.
-  void set_environment(const base::ImageF& picture);
+  void set_environment(const io::ImageF& picture);
 
   /// What pixel (x, y), row 0 at the top, of the last frame sees, in world space; none: background. `input`:
   /// that frame's.

@@ -144,9 +144,9 @@ struct Renderer::State {
                  const RenderSettings& settings, std::span<const shade::LightFactors> factors,
                  FrameResult& result);
   void find_surfaces_seen(const FrameInput& input, const AovChoice& wanted, Aovs& out) const;
-  base::ImageF irradiance_seen(const shade::Subject& subject, const std::vector<DrawnLight>& lights,
-                               const shade::PixelSamples& pixels) const;
-  base::ImageF albedo_seen(const FrameInput& input, const shade::PixelSamples& pixels);
+  io::ImageF irradiance_seen(const shade::Subject& subject, const std::vector<DrawnLight>& lights,
+                             const shade::PixelSamples& pixels) const;
+  io::ImageF albedo_seen(const FrameInput& input, const shade::PixelSamples& pixels);
   /// Whether further samples, or the caller, need the linear colours of the centres.
   static bool needs_colors(const RenderSettings& settings) {
     return settings.antialias > 1 || settings.linear || settings.linear_mean;

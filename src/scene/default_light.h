@@ -2,7 +2,7 @@
 // diffuse surface shows.
 #pragma once
 
-#include "base/image.h"
+#include "io/image.h"
 
 namespace tenebra::scene {
 
@@ -13,6 +13,6 @@ inline constexpr float default_horizon = 0.5f;   ///< radiance of the horizon an
 
 /// The soft sky as an environment: the ground is as bright as the horizon, and above the sky gets darker in
 /// proportion to the sine of the height, so that what faces up gets default_ambient.
-base::ImageF soft_sky();
+io::ImageF soft_sky();
 
 }  // namespace tenebra::scene

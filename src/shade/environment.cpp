@@ -91,7 +91,7 @@ void add_level(const Level& level, Panorama& to) {
 
 }  // namespace
 
-Environment::Environment(const base::ImageF& picture) {
+Environment::Environment(const io::ImageF& picture) {
   Level level{picture.width, picture.height, {}};
   for (std::size_t i = 0; i + 2 < picture.pixels.size(); i += 3)
     level.pixels.push_back(usable(&picture.pixels[i]));

@@ -2,7 +2,7 @@
 // and the source of light from all sides.
 #pragma once
 
-#include "base/image.h"
+#include "io/image.h"
 #include "shade/panorama.h"
 
 namespace tenebra::shade {
@@ -12,7 +12,7 @@ namespace tenebra::shade {
 class Environment {
 public:
   /// `picture`: three channels, linear, at least 1x1; what is not finite or negative counts as 0.
-  explicit Environment(const base::ImageF& picture);
+  explicit Environment(const io::ImageF& picture);
 
   /// What is seen, and mirrored: from the copy whose pixels are as wide as the lobe.
   const Panorama& radiance() const { return radiance_; }

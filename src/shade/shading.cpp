@@ -33,7 +33,7 @@ void for_each_block(const FrameTerms& frame, const PixelSamples& pixels,
 }
 
 template <class T>
-void resize(const PixelSamples& pixels, base::Image<T>& out) {
+void resize(const PixelSamples& pixels, io::Image<T>& out) {
   out.width = pixels.width;
   out.height = pixels.height;
   out.channels = 3;
@@ -66,7 +66,7 @@ void shade_samples(const Subject& subject, const Lighting& lighting, const Sampl
 }
 
 void shade_picture(const Subject& subject, const Lighting& lighting, const PixelSamples& pixels,
-                   const Display& display, base::Image8& out, std::vector<glm::vec3>* colors) {
+                   const Display& display, io::Image8& out, std::vector<glm::vec3>* colors) {
   const FrameTerms frame(subject, lighting);
   const LevelTable& table = level_table(display.transfer);
   resize(pixels, out);
@@ -82,7 +82,7 @@ void shade_picture(const Subject& subject, const Lighting& lighting, const Pixel
 }
 
 void light_buffer(const Subject& subject, const Lighting& lighting, std::size_t light,
-                  const PixelSamples& pixels, base::ImageF& out) {
+                  const PixelSamples& pixels, io::ImageF& out) {
   const FrameTerms frame(subject, lighting);
   resize(pixels, out);
   for_each_block(frame, pixels, [&](BlockShader& shader, std::size_t first) {

@@ -10,7 +10,7 @@
 
 #include <tenebra/frame_geometry.h>
 #include <tenebra/simd_level.h>
-#include "base/image.h"
+#include "io/image.h"
 #include "shade/display.h"
 #include "shade/environment.h"
 #include "shade/light_terms.h"
@@ -66,7 +66,7 @@ struct PixelSamples {
 /// What is shown of their colours, encoded. `out` keeps its capacity. `colors`, if not null, gets the linear
 /// colours.
 void shade_picture(const Subject& subject, const Lighting& lighting, const PixelSamples& pixels,
-                   const Display& display, base::Image8& out, std::vector<glm::vec3>* colors = nullptr);
+                   const Display& display, io::Image8& out, std::vector<glm::vec3>* colors = nullptr);
 
 /// The light buffer: direct diffuse light that light `light` of `lighting` would send from the seen triangles
 /// to the eye if nothing were in between; three channels, zero where no triangle is seen. Zero where light
@@ -82,6 +82,6 @@ void shade_picture(const Subject& subject, const Lighting& lighting, const Pixel
 /// irradiance, area cos cos' / d^2, makes c * I cos(theta) cos' again. Range and a spot's cone fade as seen
 /// from the light's centre. Values are at most 1e30.
 void light_buffer(const Subject& subject, const Lighting& lighting, std::size_t light,
-                  const PixelSamples& pixels, base::ImageF& out);
+                  const PixelSamples& pixels, io::ImageF& out);
 
 }  // namespace tenebra::shade

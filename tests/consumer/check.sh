@@ -52,7 +52,7 @@ check_reachable() {
   for header in "$prefix"/include/tenebra/*.h; do
     compiles "<tenebra/$(basename "$header")>" || { cat "$work/log" >&2; stop "$header does not compile by itself"; }
   done
-  for header in soft/solve/group_solver.h shadow/decision/decide.h base/image.h simd/pack-inl.h; do
+  for header in soft/solve/group_solver.h shadow/decision/decide.h io/image.h simd/pack-inl.h; do
     [[ -e $root/src/$header ]] || stop "src/$header is gone: name another internal header here"
     for include in "<$header>" "\"$header\"" "<tenebra/$header>"; do
       ! compiles "$include" || stop "the internal header $include can be included"

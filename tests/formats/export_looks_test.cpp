@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::RoundTrip;
 
-TextureImage image_of(const std::string& name, const base::Image8& picture) {
+TextureImage image_of(const std::string& name, const io::Image8& picture) {
   TextureImage image;
   image.name = name;
   image.width = picture.width;

@@ -42,7 +42,7 @@ std::vector<int> values(const TextureImage& image) {
 }
 
 TEST(ImageDecode, ReadsPngWithItsAlpha) {
-  const base::Image8 picture = small_picture(5, 3);
+  const io::Image8 picture = small_picture(5, 3);
   const TextureImage image = decode(png_of(picture));
   EXPECT_EQ(image.name, "a picture");
   EXPECT_EQ(image.width, 5);
@@ -58,7 +58,7 @@ TEST(ImageDecode, GivesAlpha255WhereThereIsNone) {
 }
 
 TEST(ImageDecode, ReadsJpeg) {
-  base::Image8 picture{16, 8, 3, {}};
+  io::Image8 picture{16, 8, 3, {}};
   for (int i = 0; i < 16 * 8; ++i) picture.pixels.insert(picture.pixels.end(), {200, 100, 50});
   const TextureImage image = decode(jpeg_of(picture));
   ASSERT_EQ(image.rgba.size(), 4u * 16 * 8);
@@ -148,7 +148,7 @@ TEST(ImageDecode, SaysThatKtx2IsNotRead) {
 TEST(ImageDecode, ReadsWebpOrNamesThePackage) {
 #ifdef TENEBRA_WEBP
   ASSERT_TRUE(formats::reads_webp());
-  base::Image8 picture = small_picture(6, 5);
+  io::Image8 picture = small_picture(6, 5);
   for (std::size_t i = 3; i < picture.pixels.size(); i += 4)
     if (picture.pixels[i] == 0) picture.pixels[i] = 1;  // colours below alpha 0 are not kept
   std::uint8_t* out = nullptr;

@@ -6,23 +6,23 @@
 #include <string>
 #include <vector>
 
-#include "base/image.h"
+#include "io/image.h"
 
 namespace tenebra::testing {
 
 /// A picture of width * height pixels with four channels whose values follow from their places.
-inline base::Image8 small_picture(int width, int height, int seed = 0) {
-  base::Image8 image{width, height, 4, {}};
+inline io::Image8 small_picture(int width, int height, int seed = 0) {
+  io::Image8 image{width, height, 4, {}};
   for (int i = 0; i < 4 * width * height; ++i)
     image.pixels.push_back(static_cast<std::uint8_t>((i * 37 + seed * 11) % 256));
   return image;
 }
 
-inline std::string png_of(const base::Image8& image) {
-  return base::encode_png(image).value();
+inline std::string png_of(const io::Image8& image) {
+  return io::encode_png(image).value();
 }
 
-inline std::string jpeg_of(const base::Image8& image) {
+inline std::string jpeg_of(const io::Image8& image) {
   std::string bytes;
   const auto append = [](void* text, void* data, int size) {
     static_cast<std::string*>(text)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));

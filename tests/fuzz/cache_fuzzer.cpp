@@ -5,9 +5,9 @@
 #include "ao/cache/tree_file.h"
 #include "ao/field/field_file.h"
 #include "ao/surface/sample_file.h"
-#include "base/input_file.h"
-#include "base/output_file.h"
 #include "fuzz/input_file.h"
+#include "io/input_file.h"
+#include "io/output_file.h"
 
 namespace {
 
@@ -28,7 +28,7 @@ struct Kept {
 
 /// Magic and version as a file that was saved has them.
 ao::CacheKind kind_of(const fs::path& file, const char* name) {
-  const auto bytes = base::read_file(file, std::size_t{1} << 20);
+  const auto bytes = io::read_file(file, std::size_t{1} << 20);
   ao::CacheKind kind{{}, 0, name};
   if (!bytes || bytes->size() < 12) std::abort();
   std::memcpy(kind.magic.data(), bytes->data(), 8);
@@ -53,7 +53,7 @@ Kinds kinds_in(const fs::path& folder, const Kept& kept) {
 void put(const fs::path& folder, const ao::CacheKind& kind, const ao::CacheKey& key, std::string_view bytes,
          bool packed) {
   const bool done = packed ? ao::save_cache_file(folder, kind, key, bytes).has_value()
-                           : base::write_file(ao::cache_path(folder, kind, key), bytes).has_value();
+                           : io::write_file(ao::cache_path(folder, kind, key), bytes).has_value();
   if (!done) std::abort();
 }
 

@@ -1,6 +1,6 @@
 // Pictures from bytes: PNG and JPEG as textures, PNG and PFM as `tenebra compare` reads them, Radiance.
-#include "base/image.h"
 #include "fuzz/input_file.h"
+#include "io/image.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   using namespace tenebra;
@@ -9,15 +9,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   constexpr std::uint64_t most_pixels = 1 << 20;  // what is larger takes time and finds nothing more
   const auto path = input.write(bytes, size);
   if (text.starts_with("P")) {
-    (void)base::read_pfm(path);
+    (void)io::read_pfm(path);
     return 0;
   }
   if (!text.starts_with("#?")) {
-    const auto stated = base::stated_size(text);
+    const auto stated = io::stated_size(text);
     if (!stated || stated->width * stated->height > most_pixels) return 0;
-    if (base::decode_rgba(text) && text.starts_with("\x89PNG")) (void)base::read_png(path);
+    if (io::decode_rgba(text) && text.starts_with("\x89PNG")) (void)io::read_png(path);
     return 0;
   }
-  (void)base::read_hdr(path);
+  (void)io::read_hdr(path);
   return 0;
 }

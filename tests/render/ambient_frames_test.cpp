@@ -132,7 +132,7 @@ TEST_P(AmbientFrames, StandBesideEveryShadowMode) {
 TEST_P(AmbientFrames, GiveTheSameBitsForEveryThreadCount) {
   const Scene scene = corner_scene();
   render::RenderSettings settings = occluded(GetParam());
-  const base::Image8 expected = draw(scene, settings).image;
+  const io::Image8 expected = draw(scene, settings).image;
   for (const int threads : {1, 2, 3}) {
     settings.threads = threads;
     EXPECT_EQ(draw(scene, settings).image, expected) << threads;

@@ -235,7 +235,7 @@ TEST(Antialias, MeansAreThoseOfTheSamplesMasks) {
   EXPECT_EQ(mask.samples[0], mask.mask);
   for (std::size_t i = 0; i < mask.mask.pixels.size(); ++i) {
     int lit = 0;
-    for (const base::Image8& sample : mask.samples) lit += sample.pixels[i] != 0 ? 1 : 0;
+    for (const io::Image8& sample : mask.samples) lit += sample.pixels[i] != 0 ? 1 : 0;
     EXPECT_FLOAT_EQ(mask.mean.pixels[i], static_cast<float>(lit) / 8);
   }
 }

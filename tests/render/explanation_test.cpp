@@ -131,7 +131,7 @@ TEST(Renderer, TakesEditedLightsAndMaterialsAsIfTheSceneHadThem) {
   Scene scene = floor_and_plate();
   add_light(scene, {.name = "lamp", .intensity = 10}, {0, 4, 0});
   Frame frame(scene);
-  const base::Image8 before = frame.result.image;
+  const io::Image8 before = frame.result.image;
 
   Scene edited = scene;
   edited.materials[0].base_color = {0.5f, 0.1f, 0.1f};

@@ -94,7 +94,7 @@ render::FrameResult with_points(int count) {
   return draw(panel_scene(), settings);
 }
 
-double rms(const base::ImageF& a, const base::ImageF& b) {
+double rms(const io::ImageF& a, const io::ImageF& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i)
     sum += std::pow(double(a.pixels[i]) - double(b.pixels[i]), 2);
@@ -147,7 +147,7 @@ TEST(LightPoints, GiveSoManySteps) {
 TEST(LightPoints, AreTheSameBitsWhateverDoesTheWork) {
   render::RenderSettings settings{.width = 121, .height = 91, .shadows = render::ShadowMode::soft};
   settings.soft_points = 5;
-  const base::Image8 expected = draw(panel_scene(), settings).image;
+  const io::Image8 expected = draw(panel_scene(), settings).image;
   for (const int threads : {1, 3}) {
     settings.threads = threads;
     for (const Variant variant : {Variant::tiles, Variant::precise_seatp}) {

@@ -75,7 +75,7 @@ TEST(Needs, WhatStandsIsNotRefitted) {
   const Scene scene = bundled("city.glb");
   const render::RenderSettings settings{.width = needs_width, .height = needs_height};
   const std::array times_s{1.0, 1.1, 2.5};
-  std::vector<base::Image8> followed;
+  std::vector<io::Image8> followed;
   {
     render::Renderer kept = renderer_for(scene);
     for (const double t : times_s) followed.push_back(drawn(kept, frame_at(scene, t), settings).image);
@@ -102,7 +102,7 @@ TEST(Needs, SortAndPassesChangeTheWorkAndNotThePicture) {
   const render::FrameInput input = frame_at(scene, 5);
   render::Renderer renderer = renderer_for(scene);
   render::RenderSettings settings{.width = needs_width, .height = needs_height};
-  const base::Image8 expected = drawn(renderer, input, settings).image;
+  const io::Image8 expected = drawn(renderer, input, settings).image;
   std::uint64_t nodes[2] = {};
   for (const Variant variant : {Variant::precise, Variant::precise_sorted, Variant::precise_sea,
                                 Variant::precise_eatp, Variant::precise_seatp}) {
@@ -126,7 +126,7 @@ TEST(Needs, PointsOutOfALightsReachGetNoRay) {
   EXPECT_LT(few.stats.rays, all.stats.rays);
   const auto &with_rays = all.masks[0].mask.pixels, &without = few.masks[0].mask.pixels;
   settings.shadows = render::ShadowMode::none;
-  const base::Image8 lit = draw(scene, settings).image;
+  const io::Image8 lit = draw(scene, settings).image;
   std::size_t spared = 0;
   for (std::size_t i = 0; i < without.size(); ++i) {
     ASSERT_LE(without[i], with_rays[i]) << "a ray less blocks nothing";

@@ -40,7 +40,7 @@ protected:
   std::vector<std::uint32_t> ids_ = std::vector<std::uint32_t>(pixels, 0), layer_;
   std::vector<glm::vec3> tint_ = std::vector<glm::vec3>(pixels, glm::vec3(1.0f));
   std::vector<std::uint8_t> coloured_{1}, mask_ = std::vector<std::uint8_t>(pixels, 255);
-  base::Image8 picture_{width, height, 3, std::vector<std::uint8_t>(3 * pixels, 100)};
+  io::Image8 picture_{width, height, 3, std::vector<std::uint8_t>(3 * pixels, 100)};
 };
 
 TEST_F(PixelChoice, NothingIsChosenOfOneColour) {

@@ -56,7 +56,7 @@ Scene plate_scene() {
   return scene;
 }
 
-base::Image8 picture(const render::RenderSettings& settings) {
+io::Image8 picture(const render::RenderSettings& settings) {
   return draw(plate_scene(), settings).image;
 }
 
@@ -64,7 +64,7 @@ TEST(Quality, ExactAndBalancedShadowsHaveTheBitsOfTheDefault) {
   for (const render::ShadowMode mode : {render::ShadowMode::hard, render::ShadowMode::soft}) {
     render::RenderSettings settings{.width = 121, .height = 91, .shadows = mode};
     settings.area_lights.size = {1, 1};
-    const base::Image8 expected = picture(settings);
+    const io::Image8 expected = picture(settings);
     for (const render::Quality quality : {render::Quality::exact, render::Quality::balanced}) {
       render::apply_quality(quality, settings);
       EXPECT_EQ(picture(settings), expected) << render::quality_name(quality);
@@ -81,7 +81,7 @@ TEST(Quality, ExactAndBalancedShadowsHaveTheBitsOfTheDefault) {
 TEST(Quality, BalancedOcclusionHasTheBitsOfTheDefault) {
   render::RenderSettings settings{.width = 81, .height = 61, .shadows = render::ShadowMode::none};
   settings.ao.mode = AoMode::field;
-  const base::Image8 expected = picture(settings);
+  const io::Image8 expected = picture(settings);
   render::apply_quality(render::Quality::balanced, settings);
   EXPECT_EQ(picture(settings), expected);
 }

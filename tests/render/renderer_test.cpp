@@ -26,7 +26,7 @@ Scene plate_over_floor() {
   return scene;
 }
 
-int count_of(const base::Image8& mask, int value) {
+int count_of(const io::Image8& mask, int value) {
   return static_cast<int>(std::count(mask.pixels.begin(), mask.pixels.end(), value));
 }
 

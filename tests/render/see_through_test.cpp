@@ -68,8 +68,8 @@ TEST(SeeThroughFrames, TheMaskIsOfOpaqueCastersAndTheTintOfPanes) {
   ASSERT_EQ(with.masks.size(), 1u);
   EXPECT_EQ(with.masks[0].mask, without.masks[0].mask);
   EXPECT_TRUE(without.masks[0].tint.pixels.empty());
-  const base::ImageF colour = render::mask_colour(with.masks[0]);
-  const base::Image8 colour8 = render::mask_colour8(with.masks[0]);
+  const io::ImageF colour = render::mask_colour(with.masks[0]);
+  const io::Image8 colour8 = render::mask_colour8(with.masks[0]);
   const Places places;
   std::size_t behind = 0;
   for (std::size_t i = 0; i < places.behind_pane.size(); ++i) {
@@ -196,7 +196,7 @@ TEST(SeeThroughFrames, AnAllowedErrorOfSoftShadowsIsOneOfTintsToo) {
   settings.soft.error_255 = 12;
   const FrameResult rough = draw(scene, settings);
   ASSERT_EQ(exact.masks.size(), 1u);
-  const base::ImageF a = render::mask_colour(exact.masks[0]), b = render::mask_colour(rough.masks[0]);
+  const io::ImageF a = render::mask_colour(exact.masks[0]), b = render::mask_colour(rough.masks[0]);
   ASSERT_GT(exact.masks[0].tint.pixels.size(), 300u);
   float most = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i)

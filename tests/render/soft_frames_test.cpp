@@ -208,7 +208,7 @@ TEST(SoftFrames, LightsWithoutASizeKeepHardShadowsAndAreNamedOnce) {
       result.notes[1],
       "light 1 (sun) is directional and keeps hard shadows, unless --sun-size or --set-light gives it a "
       "diameter");
-  const base::Image8 image = result.image;
+  const io::Image8 image = result.image;
   for (const render::LightMask& mask : result.masks) {
     ASSERT_EQ(mask.visible_fraction.pixels.size(), mask.mask.pixels.size());
     for (std::size_t i = 0; i < mask.mask.pixels.size(); ++i) {

@@ -61,7 +61,7 @@ struct Difference {
 
 /// Of two pictures, in the pixels where `in_band` says so.
 template <class InBand>
-Difference difference(const base::Image8& a, const base::Image8& b, const InBand& in_band) {
+Difference difference(const io::Image8& a, const io::Image8& b, const InBand& in_band) {
   Difference d;
   double sum = 0;
   for (int y = 0; y < side; ++y) {

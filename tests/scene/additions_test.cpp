@@ -196,7 +196,7 @@ TEST(AddedFloor, InTheSunIsAsBrightAsTheBackground) {
 }
 
 TEST(SoftSky, LightsWhatFacesUpByTheAmbientLight) {
-  const base::ImageF sky = scene::soft_sky();
+  const io::ImageF sky = scene::soft_sky();
   double sum = 0, weights = 0;
   const double pi = std::acos(-1.0);
   for (int row = 0; row < sky.height / 2; ++row) {

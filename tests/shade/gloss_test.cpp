@@ -227,7 +227,7 @@ TEST_F(Gloss, WideLightsAreMirroredWide) {
 // In uniform light of radiance 1 nothing reflects more than 1, white dielectrics all of it and metals nearly.
 TEST_F(Gloss, UniformSurroundingsAreReflectedWithoutGain) {
   const shade::Lighting lighting{.ambient_light = glm::vec3(1.0f), .background = glm::vec3(1.0f)};
-  const shade::Environment white(base::ImageF{8, 4, 3, std::vector<float>(96, 1.0f)});
+  const shade::Environment white(io::ImageF{8, 4, 3, std::vector<float>(96, 1.0f)});
   shade::Lighting around = lighting;
   around.environment = &white;
   for (const shade::Lighting& light : {lighting, around}) {
@@ -285,7 +285,7 @@ TEST(Environment, IsSeenByItsDefinitionOnAllVectorLevels) {
   std::mt19937 random(11);
   const auto uniform = [&] { return static_cast<float>(random() >> 8) / 16777216.0f; };
   for (const auto& [w, h] : {std::pair{1, 1}, {5, 3}, {64, 32}, {300, 131}}) {
-    base::ImageF picture{w, h, 3, {}};
+    io::ImageF picture{w, h, 3, {}};
     for (int i = 0; i < 3 * w * h; ++i) picture.pixels.push_back(2 * uniform());
     const shade::Environment around(picture);
     for (int round = 0; round < 20; ++round) {
@@ -311,7 +311,7 @@ TEST(Environment, IsSeenByItsDefinitionOnAllVectorLevels) {
 }
 
 TEST_F(Gloss, MirrorsShowTheEnvironmentBehindTheEye) {
-  base::ImageF picture{64, 32, 3, std::vector<float>(64 * 32 * 3, 0.0f)};
+  io::ImageF picture{64, 32, 3, std::vector<float>(64 * 32 * 3, 0.0f)};
   for (std::size_t y = 0; y < 32; ++y) {
     for (std::size_t x = 0; x < 64; ++x) {
       picture.pixels[3 * (64 * y + x)] = y < 16 ? 1.0f : 0.0f;                 // red above

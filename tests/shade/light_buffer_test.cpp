@@ -47,11 +47,11 @@ glm::dvec3 expected_light(const Light& light, const WorldLight& placed, const Ma
 }
 
 /// The light buffer of a view in which every pixel sees triangle `id`.
-base::ImageF buffer_of(const FrameGeometry& frame, const ViewRays& view, int w, int h, std::uint32_t id,
+io::ImageF buffer_of(const FrameGeometry& frame, const ViewRays& view, int w, int h, std::uint32_t id,
                        const std::vector<Material>& materials, const shade::DrawnLight& light) {
   const std::vector<std::uint32_t> ids(static_cast<std::size_t>(w * h), id);
   const shade::SurfaceTable surfaces(materials);
-  base::ImageF image;
+  io::ImageF image;
   shade::light_buffer({frame, view, surfaces}, {.lights = std::span(&light, 1)}, 0,
                       {.width = w, .height = h, .ids = ids}, image);
   return image;
@@ -69,7 +69,7 @@ protected:
     glm::vec3 a(-100, -80, -16), b(100, -80, -16), c(0, 160, 8);
     if (flip_winding) std::swap(b, c);
     add_triangle(g, a, b, c, 1, normal);
-    const base::ImageF image =
+    const io::ImageF image =
         buffer_of(g, view, buffer_width, buffer_height, 1, {Material{}, material}, {light, placed});
     glm::dvec3 face = glm::normalize(glm::cross(glm::dvec3(b - a), glm::dvec3(c - a)));
     if (face.z < 0) face = -face;  // the eye is in front
@@ -162,9 +162,9 @@ TEST_F(LightBufferTest, AreaBuffersTimesTheIrradianceOfASmallLightAreThoseOfItsC
       light.range_m = 20.0f;
       light.inner_cone_rad = 0.3f;
       light.outer_cone_rad = 0.9f;
-      const base::ImageF point =
+      const io::ImageF point =
           buffer_of(g, perspective, buffer_width, buffer_height, 0, materials, {light, placed});
-      const base::ImageF area =
+      const io::ImageF area =
           buffer_of(g, perspective, buffer_width, buffer_height, 0, materials, {light, placed, *polygon});
       int lit = 0;
       for (int i = 0; i < buffer_width * buffer_height; ++i) {
@@ -213,13 +213,13 @@ TEST_F(LightBufferTest, LightOnTheSurfaceStaysFinite) {
   const ViewRays view = forward_view({0, 0, 0}, 8.0f, 5, 5);
   for (float height_m : {0.0f, 1e-20f, 1e-6f}) {
     const WorldLight placed{.position = {0, 0, -4 + height_m}};
-    const base::ImageF image = buffer_of(g, view, 5, 5, 0, {Material{}}, {light, placed});
+    const io::ImageF image = buffer_of(g, view, 5, 5, 0, {Material{}}, {light, placed});
     for (float value : image.pixels) EXPECT_TRUE(std::isfinite(value) && value >= 0) << value;
   }
 }
 
 TEST_F(LightBufferTest, BackgroundStaysDark) {
-  const base::ImageF image = buffer_of({}, perspective, buffer_width, buffer_height, background_id, {},
+  const io::ImageF image = buffer_of({}, perspective, buffer_width, buffer_height, background_id, {},
                                        {make_light(LightType::directional), {}});
   EXPECT_EQ(image.pixels, std::vector<float>(3u * buffer_width * buffer_height, 0.0f));
 }

@@ -26,7 +26,7 @@ double level_of(double linear, Transfer transfer = Transfer::srgb) {
 glm::ivec3 encoded(glm::vec3 linear, float exposure = 1.0f, Transfer transfer = Transfer::srgb) {
   const std::vector<std::uint32_t> ids{background_id};
   const shade::SurfaceTable surfaces;
-  base::Image8 image;
+  io::Image8 image;
   shade::shade_picture({{}, {}, surfaces}, {.background = linear}, {1, 1, ids, {}, {}},
                        {.exposure = exposure, .transfer = transfer}, image);
   return {image.pixels.at(0), image.pixels.at(1), image.pixels.at(2)};
@@ -79,10 +79,10 @@ protected:
   }
   static bool is_seen(int pixel) { return pixel % width < width / 2; }
 
-  base::Image8 picture(const shade::Lighting& lighting, std::span<const shade::LightFactors> factors,
-                       std::span<const float> openness = {}, float exposure = 1.0f) const {
+  io::Image8 picture(const shade::Lighting& lighting, std::span<const shade::LightFactors> factors,
+                     std::span<const float> openness = {}, float exposure = 1.0f) const {
     const shade::SurfaceTable surfaces(std::vector<Material>{Material{}, material});
-    base::Image8 image;
+    io::Image8 image;
     shade::shade_picture({geometry, view, surfaces}, lighting, {width, height, ids, factors, openness},
                          {.exposure = exposure}, image);
     EXPECT_EQ(image.width, width);
@@ -110,7 +110,7 @@ TEST_F(HalfPicture, SumsAmbientEmissiveAndLightsThroughTheirMasks) {
   }
   const std::vector<shade::LightFactors> factors{{.mask = masks[0]}, {.mask = masks[1]}, {}};
   const shade::Lighting lighting{lights, {0.5f, 1.0f, 0.25f}, {0.9f, 0.0f, 0.4f}};
-  const base::Image8 image = picture(lighting, factors, {}, 0.75f);
+  const io::Image8 image = picture(lighting, factors, {}, 0.75f);
   for (int i = 0; i < width * height; ++i) {
     const auto at = static_cast<std::size_t>(i);
     const double lit =
@@ -139,7 +139,7 @@ TEST_F(HalfPicture, AreaLightsCountByTheirIrradianceAndOpennessByTheAmbientTermO
   const std::vector<shade::LightFactors> factors{{.irradiance = irradiance}, {}};
   const shade::Lighting lighting{lights, {0.5f, 1.0f, 0.25f}, {0.9f, 0.0f, 0.4f}};
   for (const bool open : {true, false}) {
-    const base::Image8 image =
+    const io::Image8 image =
         picture(lighting, factors, open ? std::span<const float>() : std::span<const float>(openness));
     for (int i = 0; i < width * height; ++i) {
       const auto at = static_cast<std::size_t>(i);
@@ -158,7 +158,7 @@ TEST_F(HalfPicture, AreaLightsCountByTheirIrradianceAndOpennessByTheAmbientTermO
 
 TEST_F(HalfPicture, NegativeAmbientMeansTheBaseColour) {
   material = make_material({0.5f, 0.25f, 0.125f});
-  const base::Image8 image = picture({}, {});
+  const io::Image8 image = picture({}, {});
   for (std::size_t c = 0; c < 3; ++c) {
     EXPECT_EQ(image.pixels[c], std::lround(level_of(material.base_color[static_cast<int>(c)])));
   }
@@ -172,7 +172,7 @@ TEST_F(HalfPicture, SamplesHaveTheColoursOfTheirPixels) {
   for (std::size_t i = 0; i < openness.size(); ++i) openness[i] = static_cast<float>(i % 7) / 7.0f;
   const shade::Lighting lighting{lights, {0.5f, 1.0f, 0.25f}, {0.9f, 0.0f, 0.4f}};
   const std::vector<shade::LightFactors> all_lit(1);
-  const base::Image8 image = picture(lighting, all_lit, openness);
+  const io::Image8 image = picture(lighting, all_lit, openness);
   std::vector<std::size_t> order(ids.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::shuffle(order.begin(), order.end(), std::mt19937(5));

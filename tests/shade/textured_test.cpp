@@ -223,7 +223,7 @@ TEST_F(Textured, AllVectorLevelsAndThreadCountsGiveTheSameBits) {
   m.emissive = {0.1f, 0.2f, 0.3f};
   m.emissive_map = {.image = 1, .uv_set = 1, .wrap_u = Wrap::clamp_to_edge, .magnify = Filter::nearest};
   m.metallic_roughness_map = {.image = 0, .transform = {0.5f, 0.25f, -0.25f, 0.5f, 0.1f, 0.2f}};
-  base::ImageF sky{7, 4, 3, {}};
+  io::ImageF sky{7, 4, 3, {}};
   for (int i = 0; i < 84; ++i) sky.pixels.push_back(0.01f * static_cast<float>(i));
   const shade::Environment environment(sky);
   const std::vector<shade::DrawnLight> lights{
@@ -239,7 +239,7 @@ TEST_F(Textured, AllVectorLevelsAndThreadCountsGiveTheSameBits) {
       ids.push_back(i % 11 == 0 ? background_id : id(view, double(i % width) + 0.5, double(i / width) + 0.5));
     for (const shade::Environment* around : {static_cast<const shade::Environment*>(nullptr), &environment}) {
       const auto drawn = [&](SimdLevel level, int threads) {
-        base::Image8 image;
+        io::Image8 image;
         with_threads(threads, [&] {
           shade::shade_picture({geometry, view, surfaces},
                                {.lights = lights, .environment = around, .simd = level},

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "base/image.h"
+#include "io/image.h"
 #include "viewer/viewer_test_scene.h"
 
 namespace tenebra::testing {
@@ -18,22 +18,22 @@ std::string write_box(const TemporaryFolder& folder) {
   return path;
 }
 
-base::Image8 drawn(const TemporaryFolder& folder, std::vector<std::string> more) {
+io::Image8 drawn(const TemporaryFolder& folder, std::vector<std::string> more) {
   std::vector<std::string> arguments{"render",           write_box(folder), "--size", "200x150",         "-o",
                                      folder / "box.png", "--quiet",         "--log",  folder / "box.csv"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   const auto result = tenebra(arguments);
   EXPECT_EQ(result.exit_code, 0) << result.errors;
-  auto image = base::read_png(folder / "box.png");
+  auto image = io::read_png(folder / "box.png");
   EXPECT_TRUE(image) << image.error().message;
-  return image.value_or(base::Image8{});
+  return image.value_or(io::Image8{});
 }
 
 struct Difference {
   int most = 0;
   double share = 0;  ///< of the values that are off by more than 8
 };
-Difference between(const base::Image8& a, const base::Image8& b) {
+Difference between(const io::Image8& a, const io::Image8& b) {
   Difference found;
   EXPECT_EQ(a.pixels.size(), b.pixels.size());
   for (std::size_t i = 0; i < std::min(a.pixels.size(), b.pixels.size()); ++i) {
@@ -54,7 +54,7 @@ TEST(AddedParts, TheFloorIsSeenByItsShadowAlone) {
     return drawn(folder, more);
   };
   for (const char* tone : {"none", "neutral"}) {
-    const base::Image8 bare = with({"--floor", "none", "--shadows", "none", "--tone", tone});
+    const io::Image8 bare = with({"--floor", "none", "--shadows", "none", "--tone", tone});
     EXPECT_LE(between(with({"--shadows", "none", "--tone", tone}), bare).most, 1);
     EXPECT_GT(between(with({"--tone", tone}), bare).share, 0.02);
   }

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using viewer::SceneOptions;
 using viewer::ScenePlan;
 
-double clipped_share(const base::Image8& image) {
+double clipped_share(const io::Image8& image) {
   std::size_t clipped = 0;
   for (std::size_t i = 0; i < image.pixels.size(); i += 3)
     clipped += std::max({image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]}) == 255;

@@ -48,8 +48,8 @@ std::map<std::size_t, Count> count_white(const ScenePlan& plan, const SceneOptio
   lit.exposure = exposure;
   render::RenderSettings unlit;
   unlit.shadows = render::ShadowMode::none;
-  const base::Image8 seen = picture_of(plan, options, time_s, lit);
-  const base::Image8 numbers = picture_of(numbered(plan), options, time_s, unlit);
+  const io::Image8 seen = picture_of(plan, options, time_s, lit);
+  const io::Image8 numbers = picture_of(numbered(plan), options, time_s, unlit);
   std::map<std::size_t, Count> counts;
   for (std::size_t i = 0; i + 2 < seen.pixels.size(); i += 3) {
     const std::size_t number =

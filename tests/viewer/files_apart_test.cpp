@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "base/image.h"
+#include "io/image.h"
 #include "viewer/viewer_test_scene.h"
 
 namespace tenebra::testing {
@@ -91,7 +91,7 @@ TEST(FilesApart, ConvertAndCompareKeepWhatTheyRead) {
   EXPECT_EQ(converted.exit_code, 1);
   EXPECT_TRUE(is_one_sentence(converted.errors)) << converted.errors;
   EXPECT_EQ(read_text(folder / "a.glb"), before);
-  ASSERT_TRUE(base::write_png(folder / "a.png", {1, 1, 1, {7}}));
+  ASSERT_TRUE(io::write_png(folder / "a.png", {1, 1, 1, {7}}));
   const auto compared = tenebra({"compare", folder / "a.png", folder / "a.png", "-o", folder / "a.png"});
   EXPECT_EQ(compared.exit_code, 2);
   EXPECT_TRUE(is_one_sentence(compared.errors)) << compared.errors;

@@ -23,7 +23,7 @@ std::vector<PreviewLevel> levels_of(const FrameRequest& request) {
   return preview_levels(preview_subject(request.scene.get(), request.a, false, false));
 }
 
-base::Image8 made(FrameMaker& maker, const FrameRequest& request, PreviewLevel level, double time_s) {
+io::Image8 made(FrameMaker& maker, const FrameRequest& request, PreviewLevel level, double time_s) {
   const auto picture = maker.make(request, level, time_s, {}, StopFlag());
   EXPECT_TRUE(picture) << picture.error().message;
   if (!picture) return {};
@@ -37,7 +37,7 @@ void expect_whole_after_previews(const SceneOptions& options, const render::Rend
   auto planned = plan_scene(options);
   ASSERT_TRUE(planned) << planned.error().message;
   const auto plan = std::make_shared<const ScenePlan>(std::move(*planned));
-  const base::Image8 alone = testing::picture_of(*plan, options, 1.25, asked);
+  const io::Image8 alone = testing::picture_of(*plan, options, 1.25, asked);
   const FrameRequest request = request_for(plan, asked);
   FrameMaker maker(render::RasterChoice{});
   for (const double time_s : {0.5, 1.25}) {

@@ -1,7 +1,7 @@
 // The user's changes to lights: as text, their effect, and the same on the command line.
 #include <gtest/gtest.h>
 
-#include "base/image.h"
+#include "io/image.h"
 #include "options/light_edits.h"
 #include "viewer_test_scene.h"
 
@@ -57,14 +57,14 @@ TEST(LightEdits, ChangeTheirLightAndNoOther) {
   EXPECT_EQ(edited_sizes_m(edits), (std::vector<std::optional<glm::vec2>>{std::nullopt, glm::vec2(6, 3)}));
 }
 
-base::Image8 rendered(const TemporaryFolder& folder, std::vector<std::string> arguments) {
+io::Image8 rendered(const TemporaryFolder& folder, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "render");
   arguments.insert(arguments.end(), {"--size", "80x60", "--quiet", "-o", folder / "picture.png"});
   const auto result = testing::tenebra(arguments);
   EXPECT_EQ(result.exit_code, 0) << result.errors;
-  auto image = base::read_png(folder / "picture.png");
+  auto image = io::read_png(folder / "picture.png");
   EXPECT_TRUE(image) << image.error().message;
-  return image ? std::move(*image) : base::Image8{};
+  return image ? std::move(*image) : io::Image8{};
 }
 
 TEST(SetLight, DrawsWhatTheOtherOptionsDraw) {
@@ -74,16 +74,16 @@ TEST(SetLight, DrawsWhatTheOtherOptionsDraw) {
     more.insert(more.begin(), {scene, "--shadows", "soft"});
     return rendered(folder, more);
   };
-  const base::Image8 first = rendered(folder, {scene, "--light", "0"});
+  const io::Image8 first = rendered(folder, {scene, "--light", "0"});
   EXPECT_NE(rendered(folder, {scene}), first);
   EXPECT_EQ(rendered(folder, {scene, "--set-light", "1 on=0"}), first);
   EXPECT_EQ(rendered(folder, {scene, "--set-light", "0 move=1,0,0", "--light", "0"}),
             rendered(folder, {scene, "--light", "1"}))
       << "the second light stands a metre beside the first";
-  const base::Image8 sized = soft({"--light-size", "1x0.5"});
+  const io::Image8 sized = soft({"--light-size", "1x0.5"});
   EXPECT_EQ(soft({"--set-light", "0 size=1x0.5", "--set-light", "1 size=1x0.5"}), sized);
   EXPECT_EQ(soft({"--set-light", "1 size=1x0.5", "--light-size", "1x0.5"}), sized);
-  const base::Image8 one = soft({"--set-light", "1 size=1x0.5", "--light", "1"});
+  const io::Image8 one = soft({"--set-light", "1 size=1x0.5", "--light", "1"});
   EXPECT_EQ(soft({"--light-size", "1x0.5", "--light", "1"}), one) << "light 0 has no part in it";
   EXPECT_NE(soft({"--set-light", "1 size=2x0.5", "--light", "1"}), one);
 }
@@ -95,7 +95,7 @@ TEST(SetLight, GivesASunItsDiameter) {
     more.insert(more.begin(), {scene, "--add-light", "directional direction=-0.3,-1,-0.2", "--light", "1"});
     return rendered(folder, more);
   };
-  const base::Image8 hard = sunny({}), soft = sunny({"--shadows", "soft", "--sun-size", "6"});
+  const io::Image8 hard = sunny({}), soft = sunny({"--shadows", "soft", "--sun-size", "6"});
   EXPECT_NE(soft, hard);
   EXPECT_EQ(sunny({"--shadows", "soft", "--set-light", "1 diameter=6"}), soft);
   EXPECT_EQ(sunny({"--shadows", "soft", "--set-light", "1 diameter=6", "--sun-size", "0.5"}), soft);
@@ -105,7 +105,7 @@ TEST(SetLight, GivesASunItsDiameter) {
 TEST(SetLight, CountsEachPlaceOfASharedLight) {
   const TemporaryFolder folder;
   const std::string scene = testing::write_moving_scene(folder, 2);
-  const base::Image8 first = rendered(folder, {scene, "--light", "0"});
+  const io::Image8 first = rendered(folder, {scene, "--light", "0"});
   std::string text = testing::read_text(scene);
   const auto second = text.find(R"("light":1)");
   ASSERT_NE(second, std::string::npos);

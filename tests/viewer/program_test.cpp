@@ -4,7 +4,7 @@
 #include <cctype>
 #include <ostream>
 
-#include "base/image.h"
+#include "io/image.h"
 #include "viewer/viewer_test_scene.h"
 
 namespace tenebra::testing {
@@ -284,7 +284,7 @@ TEST(Program, EndsInASentenceWithoutMemory) {
 #endif
   const TemporaryFolder folder;
   constexpr int side = 8192;  // 64 MiB decoded
-  ASSERT_TRUE(base::write_png(folder / "large.png", {side, side, 1, std::vector<std::uint8_t>(side * side)}));
+  ASSERT_TRUE(io::write_png(folder / "large.png", {side, side, 1, std::vector<std::uint8_t>(side * side)}));
   for (const rlim_t limit_mib : {100, 150, 200, 250}) {
     const auto result = tenebra({"compare", folder / "large.png", folder / "large.png"}, [&] {
       const rlimit bound{limit_mib << 20, limit_mib << 20};

@@ -39,7 +39,7 @@ std::vector<Block> blocks_of(const std::string& scene) {
   return blocks;
 }
 
-glm::dvec3 mean_around(const base::Image8& image, int x, int y, int reach) {
+glm::dvec3 mean_around(const io::Image8& image, int x, int y, int reach) {
   glm::dvec3 sum(0.0);
   for (int j = y - reach; j <= y + reach; ++j)
     for (int i = x - reach; i <= x + reach; ++i)
@@ -49,7 +49,7 @@ glm::dvec3 mean_around(const base::Image8& image, int x, int y, int reach) {
 }
 
 /// Of each block with at most `most_spread`: the mean difference of its channels; ascending.
-std::vector<double> errors(const base::Image8& image, const std::vector<Block>& blocks, double most_spread) {
+std::vector<double> errors(const io::Image8& image, const std::vector<Block>& blocks, double most_spread) {
   std::vector<double> found;
   for (const Block& block : blocks) {
     if (block.spread > most_spread) continue;
@@ -64,19 +64,19 @@ double at(const std::vector<double>& ascending, double share) {
   return ascending[static_cast<std::size_t>(share * static_cast<double>(ascending.size() - 1))];
 }
 
-void expect_near(const base::Image8& image, int x, int y, const glm::dvec3& color) {
+void expect_near(const io::Image8& image, int x, int y, const glm::dvec3& color) {
   const glm::dvec3 found = mean_around(image, x, y, 0);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], color[c], 3) << x << ", " << y << " channel " << c;
 }
 
-base::Image8 drawn(const char* file, double time_s, bool plain = false) {
+io::Image8 drawn(const char* file, double time_s, bool plain = false) {
   SceneOptions options;
   options.file = (bart / file).string();
   options.size = viewer::Size{800, 600};
   options.plain = plain;
   const auto plan = viewer::plan_scene(options);
   EXPECT_TRUE(plan) << plan.error().message;
-  return plan ? picture_of(*plan, options, time_s) : base::Image8{};
+  return plan ? picture_of(*plan, options, time_s) : io::Image8{};
 }
 
 bool is_there() {
@@ -86,7 +86,7 @@ bool is_there() {
 TEST(ReferenceColours, MuseumAgrees) {
   // BART's textures are too large for the checkout, and the colours are of its textured scenes.
   if (!is_there()) GTEST_SKIP() << "BART and its reference colours are not beside the checkout";
-  const base::Image8 image = drawn("museum/museum5.aff", 3.0569);
+  const io::Image8 image = drawn("museum/museum5.aff", 3.0569);
   expect_near(image, 480, 150, {208, 209, 169});
   expect_near(image, 640, 60, glm::dvec3(88));
   const std::vector<double> found = errors(image, blocks_of("museum/museum5.aff"), 24);
@@ -98,7 +98,7 @@ TEST(ReferenceColours, MuseumAgrees) {
 // What differs most is what is mirrored: the reference has bounces on tiles, marble and metal.
 TEST(ReferenceColours, KitchenAgreesWhereNothingIsMirrored) {
   if (!is_there()) GTEST_SKIP() << "BART and its reference colours are not beside the checkout";
-  const base::Image8 image = drawn("kitchen/kitchen.aff", 0);
+  const io::Image8 image = drawn("kitchen/kitchen.aff", 0);
   const std::vector<Block> blocks = blocks_of("kitchen/kitchen.aff");
   const std::vector<double> even = errors(image, blocks, 24), all = errors(image, blocks, 255);
   ASSERT_GT(even.size(), 40u);
@@ -113,7 +113,7 @@ TEST(ReferenceColours, KitchenAgreesWhereNothingIsMirrored) {
 TEST(ReferenceColours, PlainSurfacesHaveTheirFactors) {
   // BART's textures are too large for the checkout, and the colours are of its textured scenes.
   if (!is_there()) GTEST_SKIP() << "BART and its reference colours are not beside the checkout";
-  const base::Image8 full = drawn("kitchen/kitchen.aff", 0), plain = drawn("kitchen/kitchen.aff", 0, true);
+  const io::Image8 full = drawn("kitchen/kitchen.aff", 0), plain = drawn("kitchen/kitchen.aff", 0, true);
   expect_near(plain, 395, 455, {54, 71, 161});
   EXPECT_NE(full, plain);
 }

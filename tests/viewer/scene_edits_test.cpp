@@ -1,7 +1,7 @@
 // The user's changes to a scene: as text, their effect, undo and redo.
 #include <gtest/gtest.h>
 
-#include "base/image.h"
+#include "io/image.h"
 #include "options/scene_edits.h"
 #include "viewer_test_scene.h"
 #include "window/undo_history.h"
@@ -89,24 +89,24 @@ TEST(SceneEdits, TurnAreaLightsAsAWhole) {
   }
 }
 
-base::Image8 rendered_moving(const TemporaryFolder& folder, std::vector<std::string> arguments) {
+io::Image8 rendered_moving(const TemporaryFolder& folder, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"render", testing::write_moving_scene(folder)});
   arguments.insert(arguments.end(), {"--size", "80x60", "--quiet", "-o", folder / "picture.png"});
   const auto result = testing::tenebra(arguments);
   EXPECT_EQ(result.exit_code, 0) << result.errors;
-  auto image = base::read_png(folder / "picture.png");
-  return image ? std::move(*image) : base::Image8{};
+  auto image = io::read_png(folder / "picture.png");
+  return image ? std::move(*image) : io::Image8{};
 }
 
 TEST(SceneEdits, AreOptionsOfRender) {
   const TemporaryFolder folder;
-  const base::Image8 plain = rendered_moving(folder, {});
-  const auto sum = [](const base::Image8& image) {
+  const io::Image8 plain = rendered_moving(folder, {});
+  const auto sum = [](const io::Image8& image) {
     std::size_t total = 0;
     for (const std::uint8_t value : image.pixels) total += value;
     return total;
   };
-  const base::Image8 no_shadow = rendered_moving(folder, {"--set-node", "1 casts=0"});
+  const io::Image8 no_shadow = rendered_moving(folder, {"--set-node", "1 casts=0"});
   EXPECT_GT(sum(no_shadow), sum(plain)) << "the blocker's shadow is gone";
   EXPECT_NE(rendered_moving(folder, {"--set-node", "1 visible=0"}), no_shadow) << "and now the blocker";
   EXPECT_LT(sum(rendered_moving(folder, {"--set-material", "0 color=0.05,0.05,0.05"})), sum(plain));

@@ -7,9 +7,9 @@ namespace tenebra::testing {
 namespace {
 
 /// The part of a picture of the window that shows the scene.
-base::Image8 cut(const base::Image8& window, const std::array<double, 4>& place) {
+io::Image8 cut(const io::Image8& window, const std::array<double, 4>& place) {
   const auto [left, top, right, bottom] = place;
-  base::Image8 out{static_cast<int>(right - left), static_cast<int>(bottom - top), window.channels, {}};
+  io::Image8 out{static_cast<int>(right - left), static_cast<int>(bottom - top), window.channels, {}};
   for (int y = static_cast<int>(top); y < static_cast<int>(bottom); ++y) {
     const auto row =
         window.pixels.begin() + (static_cast<std::ptrdiff_t>(y) * window.width + static_cast<int>(left)) * 3;
@@ -18,7 +18,7 @@ base::Image8 cut(const base::Image8& window, const std::array<double, 4>& place)
   return out;
 }
 
-base::Image8 rendered(const TemporaryFolder& folder, std::vector<std::string> arguments) {
+io::Image8 rendered(const TemporaryFolder& folder, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "render");
   arguments.insert(arguments.end(), {"-o", folder / "rendered.png", "--quiet"});
   const auto result = tenebra(arguments);
@@ -43,7 +43,7 @@ TEST_F(ViewWindow, ShowsTheBitsOfRender) {
   for (const auto& method : methods) {
     std::vector<std::string> arguments{scene, "--time", "2.125", "--size", "400x300"};
     arguments.insert(arguments.end(), method.begin(), method.end());
-    const base::Image8 expected = rendered(folder_, arguments);
+    const io::Image8 expected = rendered(folder_, arguments);
     arguments.insert(arguments.end(), {"--shots", folder_ / "shot_%d.png"});
     const ViewSession session(display(), folder_, arguments);
     session.wait_for_picture();
@@ -53,7 +53,7 @@ TEST_F(ViewWindow, ShowsTheBitsOfRender) {
     session.move_to("scrubber");
     session.wait_for_picture();
     session.wait_until_gone("message");
-    const base::Image8 window = shot(session, "shift+p");
+    const io::Image8 window = shot(session, "shift+p");
     EXPECT_EQ(cut(window, session.place("picture")), expected) << "pixels of the window, " << method[1];
     EXPECT_EQ(shot(session), expected) << method[1];
     quit(session);
@@ -101,7 +101,7 @@ TEST_F(ViewWindow, ShowsMarkedPreviewsWhileAKeyIsHeldAndRefinesThem) {
                    [](const Json& event) { return event["event"] == "marks" && event.contains("preview"); });
   session.photograph("preview");
   session.xdotool({"keyup", "w"});
-  const base::Image8 saved = shot(session);  // waits for the whole picture
+  const io::Image8 saved = shot(session);  // waits for the whole picture
   session.wait_for_picture();
   session.wait_until_gone("preview");
   EXPECT_EQ(saved, pasted(folder_, scene, copied_arguments(session))) << "refined to the bits of render";

@@ -50,7 +50,7 @@ TEST_F(ViewWindow, FlipsEveryMethod) {
   session.click("samples.ids");
   session.wait_for_picture();
 
-  const base::Image8 before = shot(session);
+  const io::Image8 before = shot(session);
   std::vector<std::string> variants;
   for (int i = 0; i < 8; ++i) {
     const std::size_t from = session.count();

@@ -141,8 +141,8 @@ TEST(MethodArguments, CoverEveryMethodOption) {
 }
 
 TEST(PictureDifference, CountsAndShowsWhatDiffers) {
-  const base::Image8 a{2, 1, 3, {10, 20, 30, 200, 200, 200}};
-  const base::Image8 b{2, 1, 3, {10, 25, 30, 200, 100, 201}};
+  const io::Image8 a{2, 1, 3, {10, 20, 30, 200, 200, 200}};
+  const io::Image8 b{2, 1, 3, {10, 25, 30, 200, 100, 201}};
   const auto difference = viewer::compare_pictures(a, b, 0);
   EXPECT_EQ(difference.pixels, 2u);
   EXPECT_EQ(difference.differing, 2u);

@@ -111,7 +111,7 @@ public:
     ImGui::GetIO().AddInputCharacter(static_cast<unsigned>(character));
     turn();
   }
-  base::Image8 pixels() const { return gl_->read_window(window_.width, window_.height); }
+  io::Image8 pixels() const { return gl_->read_window(window_.width, window_.height); }
   std::vector<std::string> gl_messages() { return gl_->take_messages(); }
 
 private:
@@ -132,7 +132,7 @@ private:
   std::optional<Viewer> viewer_;
 };
 
-int pixels_unlike(const base::Image8& a, const base::Image8& b) {
+int pixels_unlike(const io::Image8& a, const io::Image8& b) {
   int count = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i) count += a.pixels[i] != b.pixels[i] ? 1 : 0;
   return count;
@@ -143,7 +143,7 @@ TEST(ViewPanel, IsDrawnWithoutADisplay) {
   HeadlessViewer headless(testing::write_moving_scene(folder), {1280, 720});
   ASSERT_TRUE(headless.wait_for_first_picture());
   headless.turn();
-  const base::Image8 before = headless.pixels();
+  const io::Image8 before = headless.pixels();
   for (const char* name :
        {"play", "scrubber", "shadows.soft", "variant", "graph", "overlay.nodes", "section.Lights"}) {
     EXPECT_EQ(headless.viewer().marks().count(name), 1u) << name;

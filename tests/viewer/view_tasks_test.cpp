@@ -85,7 +85,7 @@ TEST_F(ViewTasks, FindsWhyAPixelIsDark) {
   arguments.insert(arguments.end(), {"--shots", folder_ / "shot_%d.png"});
   const ViewSession session(display(), folder_, arguments);
   session.wait_for_picture();
-  const base::Image8 picture = shot(session);
+  const io::Image8 picture = shot(session);
   const auto brightness = [&](int x, int y) {
     return picture.pixels[static_cast<std::size_t>(y * 400 + x) * 3];
   };
@@ -168,7 +168,7 @@ TEST_F(ViewTasks, EditsMaterialsAndLights) {
   const std::string scene = write_moving_scene(folder_);
   const ViewSession session(display(), folder_, {scene, "--shots", folder_ / "shot_%d.png"});
   session.wait_for_picture();
-  const base::Image8 before = shot(session);
+  const io::Image8 before = shot(session);
   session.click("section.Lights");
   session.click("add.sun");
   wait_for_state(session, "selected_light", 1);
@@ -191,7 +191,7 @@ TEST_F(ViewTasks, EditsMaterialsAndLights) {
   });
   session.photograph("task_material");
   session.wait_for_picture();
-  const base::Image8 edited = shot(session);
+  const io::Image8 edited = shot(session);
   EXPECT_EQ(edited, pasted(folder_, scene, copied_arguments(session)));
   for (int i = 0; i < 3; ++i) session.click("undo");
   wait_for_state(session, "edits", Json::array());

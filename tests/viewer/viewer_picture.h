@@ -8,8 +8,8 @@
 
 namespace tenebra::testing {
 
-inline base::Image8 picture_of(const viewer::ScenePlan& plan, const viewer::SceneOptions& options,
-                               double time_s, render::RenderSettings settings = {}) {
+inline io::Image8 picture_of(const viewer::ScenePlan& plan, const viewer::SceneOptions& options,
+                             double time_s, render::RenderSettings settings = {}) {
   auto raster = render::FrameRaster::create(render::RasterChoice{});
   EXPECT_TRUE(raster) << raster.error().message;
   render::Renderer renderer = render::Renderer::create(std::move(*raster), plan.scene);

@@ -1,19 +1,19 @@
 // What tests of the window do again and again: save pictures and look at them, paste what was copied, leave.
 #pragma once
 
-#include "base/image.h"
+#include "io/image.h"
 #include "window_driver.h"
 
 namespace tenebra::testing {
 
-inline base::Image8 picture_of(const std::filesystem::path& file) {
-  auto image = base::read_png(file);
+inline io::Image8 picture_of(const std::filesystem::path& file) {
+  auto image = io::read_png(file);
   EXPECT_TRUE(image) << image.error().message;
-  return image ? std::move(*image) : base::Image8{};
+  return image ? std::move(*image) : io::Image8{};
 }
 
 /// The screenshot that the keys ask for: "p" of the picture, "shift+p" of the window.
-inline base::Image8 shot(const ViewSession& session, const std::string& keys = "p") {
+inline io::Image8 shot(const ViewSession& session, const std::string& keys = "p") {
   const std::size_t from = session.count();
   session.key(keys);
   return picture_of(session.wait_for_event(from, "shot").value("text", ""));
@@ -27,8 +27,8 @@ inline std::string copied_arguments(const ViewSession& session) {
 }
 
 /// What `tenebra render` makes of `scene` with arguments that were pasted into a shell.
-inline base::Image8 pasted(const TemporaryFolder& folder, const std::string& scene,
-                           const std::string& arguments) {
+inline io::Image8 pasted(const TemporaryFolder& folder, const std::string& scene,
+                         const std::string& arguments) {
   const std::string file = folder / "pasted.png";
   const std::string command =
       fmt::format("exec '{}' render '{}' {} -o '{}' --quiet", TENEBRA_PROGRAM, scene, arguments, file);

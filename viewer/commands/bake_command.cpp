@@ -7,10 +7,10 @@
 #include "bake/baked_scene.h"
 #include "bake/surface_light.h"
 #include "base/fail.h"
-#include "base/output_file.h"
 #include "base/stopwatch.h"
 #include "commands/command.h"
-#include "exr/exr_file.h"
+#include "io/exr/exr_file.h"
+#include "io/output_file.h"
 #include "options/bake_options.h"
 #include "shade/display.h"
 #include "shared/files_apart.h"
@@ -209,7 +209,7 @@ Expected<std::string> encode_map(const bake::BakedMap& map, const BakeOptions& o
   const std::size_t count = map.texels.size();
   const bool ao_alone = options.content == BakeContent::ao, ao = options.content != BakeContent::light;
   if (options.map.ends_with(".png")) {
-    base::Image8 image{map.size, map.size, ao_alone ? 1 : 3, {}};
+    io::Image8 image{map.size, map.size, ao_alone ? 1 : 3, {}};
     image.pixels.resize(count * static_cast<std::size_t>(image.channels));
     for (std::size_t i = 0; i < count; ++i) {
       if (ao_alone)
@@ -219,21 +219,21 @@ Expected<std::string> encode_map(const bake::BakedMap& map, const BakeOptions& o
         shade::encode_shown({}, glm::min(options.exposure * glm::vec3(map.texels[i]), 1.0f),
                             &image.pixels[3 * i]);
     }
-    return base::encode_png(image);
+    return io::encode_png(image);
   }
   std::span<const float> values(&map.texels.data()->x, 4 * count);
-  exr::Picture picture{.width = map.size, .height = map.size};
+  io::exr::Picture picture{.width = map.size, .height = map.size};
   const char* const names[] = {"R", "G", "B"};
   if (ao_alone)
-    picture.channels.push_back({"Y", exr::Floats{values.subspan(3), 4}});
+    picture.channels.push_back({"Y", io::exr::Floats{values.subspan(3), 4}});
   else
     for (std::size_t c = 0; c < 3; ++c)
-      picture.channels.push_back({names[c], exr::Floats{values.subspan(c), 4}});
-  if (ao && !ao_alone) picture.channels.push_back({"ao", exr::Floats{values.subspan(3), 4}});
+      picture.channels.push_back({names[c], io::exr::Floats{values.subspan(c), 4}});
+  if (ao && !ao_alone) picture.channels.push_back({"ao", io::exr::Floats{values.subspan(3), 4}});
   picture.texts = {{"software", "tenebra"},
                    {"tenebra/texels", ao_alone ? "openness: 1 open, 0 closed"
                                                : "what a white diffuse surface shows, linear; ao: openness"}};
-  return exr::encode(picture);
+  return io::exr::encode(picture);
 }
 
 void print_notes(const std::vector<std::string>& notes) {
@@ -241,7 +241,7 @@ void print_notes(const std::vector<std::string>& notes) {
 }
 
 Expected<void> write_scene(const Scene& scene, const BakeOptions& options) {
-  base::remove_stale_temporaries(std::filesystem::path(options.output).parent_path());
+  io::remove_stale_temporaries(std::filesystem::path(options.output).parent_path());
   const auto losses = formats::export_glb(scene, options.output, options.scene.fps);
   if (!losses) return tl::unexpected(losses.error());
   if (!options.quiet) print_warnings(*losses);
@@ -291,7 +291,7 @@ Expected<void> to_lightmap(Baking& baking, LitScene& lit, const BakeOptions& opt
   const double ms = watch.lap_ms();
   const auto bytes = encode_map(*map, options);
   if (!bytes) return base::fail("{}: {}", options.map, bytes.error().message);
-  if (auto written = base::write_file(options.map, *bytes); !written) return written;
+  if (auto written = io::write_file(options.map, *bytes); !written) return written;
   if (auto written = write_scene(baking.plan.scene, options); !written) return written;
   if (!options.quiet)
     print_out("{}x{} texels, {} covered, {} lit, {} lights, {:.2f} s: {}, {}\n", options.size, options.size,

@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "base/fail.h"
-#include "base/image.h"
 #include "commands/command.h"
+#include "io/image.h"
 #include "options/option_values.h"
 #include "shared/files_apart.h"
 #include "shared/flip.h"
@@ -54,10 +54,10 @@ double decibels(double peak, double rms) {
 struct Comparison {
   std::string text;
   bool is_same = false;
-  base::Image8 marked;  ///< the picture of the differences
+  io::Image8 marked;  ///< the picture of the differences
 };
 
-Comparison compare_levels(const base::Image8& a, const base::Image8& b, int threshold) {
+Comparison compare_levels(const io::Image8& a, const io::Image8& b, int threshold) {
   Comparison out;
   const PictureDifference found = compare_pictures(a, b, threshold, &out.marked);
   const double rms = rms_difference(a, b);
@@ -70,7 +70,7 @@ Comparison compare_levels(const base::Image8& a, const base::Image8& b, int thre
   return out;
 }
 
-Comparison compare_floats(const base::ImageF& a, const base::ImageF& b, int threshold) {
+Comparison compare_floats(const io::ImageF& a, const io::ImageF& b, int threshold) {
   Comparison out;
   const ValueDifference found = compare_values(a, b, threshold / double{largest_value}, &out.marked);
   const double rms = rms_difference(a, b);
@@ -93,11 +93,11 @@ std::size_t pixels_of(const LoadedPicture& picture) {
 
 /// Levels where both are PNG, else linear values.
 Comparison compare_loaded(const LoadedPicture& a, const LoadedPicture& b, const CompareOptions& options) {
-  const auto* const a_levels = std::get_if<base::Image8>(&a);
-  const auto* const b_levels = std::get_if<base::Image8>(&b);
+  const auto* const a_levels = std::get_if<io::Image8>(&a);
+  const auto* const b_levels = std::get_if<io::Image8>(&b);
   const bool of_levels = a_levels && b_levels,
              looks = options.layer.empty() && pixels_of(a) <= most_looked_at;
-  base::ImageF a_linear, b_linear;
+  io::ImageF a_linear, b_linear;
   if (looks || !of_levels) {
     a_linear = linear_colors(a);
     b_linear = linear_colors(b);
@@ -130,7 +130,7 @@ Expected<int> compare(const CompareOptions& options) {
   const Comparison found = compare_loaded(*a, *b, options);
   if (!options.output.empty()) {
     const StopSignals stop;
-    if (auto written = base::write_png(options.output, found.marked); !written)
+    if (auto written = io::write_png(options.output, found.marked); !written)
       return tl::unexpected(written.error());
   }
   print_out("{}", found.text);

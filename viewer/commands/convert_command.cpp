@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "base/fail.h"
-#include "base/output_file.h"
 #include "commands/command.h"
+#include "io/output_file.h"
 #include "options/memory_option.h"
 #include "options/option_values.h"
 #include "options/scene_options.h"
@@ -48,7 +48,7 @@ Expected<int> convert(const ConvertOptions& options) {
   if (auto apart = check_files_apart(inputs, OutputName{"OUT", options.output}); !apart)
     return tl::unexpected(apart.error());
   if (!options.quiet) print_warnings(scene->warnings);
-  base::remove_stale_temporaries(std::filesystem::path(options.output).parent_path());
+  io::remove_stale_temporaries(std::filesystem::path(options.output).parent_path());
   const auto losses = formats::export_glb(*scene, options.output, options.fps);
   if (!losses) return tl::unexpected(losses.error());
   if (!options.quiet) print_warnings(*losses);

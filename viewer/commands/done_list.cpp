@@ -34,7 +34,7 @@ DoneList::Frames frames_of(std::string_view text) {
   return frames;
 }
 
-Expected<DonePast> past_of(const base::Journal& file) {
+Expected<DonePast> past_of(const io::Journal& file) {
   const auto text = file.read();
   if (!text) return tl::unexpected(text.error());
   return DonePast{render::parse_log(*text, header), frames_of(*text)};
@@ -62,7 +62,7 @@ Expected<void> check_same_identity(const std::filesystem::path& path, const rend
 Expected<DoneList> DoneList::open(const std::filesystem::path& path,
                                   std::span<const render::LogSetting> identity, bool resume) {
   for (int i = 0; i < tries; ++i) {
-    auto file = base::Journal::open(path, base::Journal::Writers::many);
+    auto file = io::Journal::open(path, io::Journal::Writers::many);
     if (!file) return tl::unexpected(file.error());
     const auto past = past_of(*file);
     if (!past) return tl::unexpected(past.error());

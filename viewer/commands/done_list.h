@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "base/journal.h"
+#include "io/journal.h"
 #include "options/render_options.h"
 #include "render/log/frame_log.h"
 
@@ -33,9 +33,9 @@ public:
   Expected<void> finish() { return file_.finish(); }
 
 private:
-  DoneList(base::Journal file, Frames frames) : file_(std::move(file)), frames_(std::move(frames)) {}
+  DoneList(io::Journal file, Frames frames) : file_(std::move(file)), frames_(std::move(frames)) {}
 
-  base::Journal file_;
+  io::Journal file_;
   Frames frames_;
 };
 

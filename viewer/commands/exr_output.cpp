@@ -12,27 +12,27 @@ namespace {
 /// Channels of one picture.
 class Layers {
 public:
-  explicit Layers(exr::Precision precision) : precision_(precision) {}
+  explicit Layers(io::exr::Precision precision) : precision_(precision) {}
 
   /// "N" and "XYZ": N.X, N.Y and N.Z; without a layer the letters alone.
-  void add(const std::string& layer, std::string_view letters, const base::ImageF& image) {
+  void add(const std::string& layer, std::string_view letters, const io::ImageF& image) {
     for (std::size_t c = 0; c < letters.size() && !image.pixels.empty(); ++c)
       channels_.push_back(
           {layer.empty() ? std::string(1, letters[c]) : fmt::format("{}.{}", layer, letters[c]),
-           exr::Floats{std::span(image.pixels).subspan(c), letters.size(), precision_}});
+           io::exr::Floats{std::span(image.pixels).subspan(c), letters.size(), precision_}});
   }
-  void add_single(const std::string& name, const std::vector<float>& values, exr::Precision precision) {
-    if (!values.empty()) channels_.push_back({name, exr::Floats{values, 1, precision}});
+  void add_single(const std::string& name, const std::vector<float>& values, io::exr::Precision precision) {
+    if (!values.empty()) channels_.push_back({name, io::exr::Floats{values, 1, precision}});
   }
   void add_ids(const std::string& name, const std::vector<std::uint32_t>& ids) {
-    if (!ids.empty()) channels_.push_back({name, exr::Numbers(ids)});
+    if (!ids.empty()) channels_.push_back({name, io::exr::Numbers(ids)});
   }
 
-  std::vector<exr::Channel> take() { return std::move(channels_); }
+  std::vector<io::exr::Channel> take() { return std::move(channels_); }
 
 private:
-  exr::Precision precision_;
-  std::vector<exr::Channel> channels_;
+  io::exr::Precision precision_;
+  std::vector<io::exr::Channel> channels_;
 };
 
 /// A name as part of a channel's name, in which dots separate layers.
@@ -64,8 +64,8 @@ private:
   std::set<std::string> taken_;
 };
 
-std::vector<exr::Text> texts_of(const RenderPlan& plan, std::span<const render::LogSetting> settings,
-                                const PlannedFrame& frame) {
+std::vector<io::exr::Text> texts_of(const RenderPlan& plan, std::span<const render::LogSetting> settings,
+                                    const PlannedFrame& frame) {
   std::map<std::string, std::string> values{
       {"tenebra/frame", fmt::format("{}", frame.frame)},
       {"tenebra/time", fmt::format("{} s", frame.time_s)},
@@ -76,7 +76,7 @@ std::vector<exr::Text> texts_of(const RenderPlan& plan, std::span<const render::
     std::string& value = values[setting.name == "program" ? "software" : "tenebra/" + setting.name];
     value += (value.empty() ? "" : "; ") + setting.value;
   }
-  std::vector<exr::Text> texts;
+  std::vector<io::exr::Text> texts;
   texts.reserve(values.size());
   for (auto& [name, value] : values) texts.push_back({name, value});
   return texts;
@@ -92,7 +92,7 @@ std::array<float, 16> transposed(const glm::dmat4& columns) {
 
 }  // namespace
 
-exr::CameraMatrices camera_matrices(const ViewRays& view, Size size) {
+io::exr::CameraMatrices camera_matrices(const ViewRays& view, Size size) {
   const glm::dvec3 eye(view.eye), d0(view.d0), dx(view.dx), dy(view.dy);
   const glm::dvec3 right = glm::normalize(dx), up = -glm::normalize(dy);
   glm::dvec3 ahead = view.orthographic ? glm::normalize(d0) : glm::normalize(glm::cross(dx, dy));
@@ -121,11 +121,11 @@ exr::CameraMatrices camera_matrices(const ViewRays& view, Size size) {
 Expected<std::string> exr_of_frame(const RenderPlan& plan, const RenderOptions& options,
                                    std::span<const render::LogSetting> settings, const PlannedFrame& frame,
                                    const render::FrameResult& result) {
-  const exr::Precision precision = options.pictures.precision.value_or(exr::Precision::half);
+  const io::exr::Precision precision = options.pictures.precision.value_or(io::exr::Precision::half);
   const render::Aovs& aovs = result.aovs;
   Layers layers(precision);
   layers.add("", "RGB", result.linear_mean);
-  layers.add_single("Z", aovs.depth.pixels, exr::Precision::full);
+  layers.add_single("Z", aovs.depth.pixels, io::exr::Precision::full);
   layers.add_ids("id", aovs.ids);
   layers.add_ids("id.part", aovs.parts);
   layers.add_ids("id.material", aovs.materials);
@@ -136,13 +136,13 @@ Expected<std::string> exr_of_frame(const RenderPlan& plan, const RenderOptions& 
   LightNames names(plan, options, frame.time_s);
   for (const render::LightVisibility& of : aovs.visibility)
     layers.add_single("visibility." + names.take(of.light), of.fraction.pixels, precision);
-  return exr::encode(
+  return io::exr::encode(
       {.width = plan.settings.width,
        .height = plan.settings.height,
        .channels = layers.take(),
        .camera = camera_matrices(view_of(plan, options.scene, frame.time_s, plan.size), plan.size),
        .texts = texts_of(plan, settings, frame),
-       .compression = options.pictures.compression.value_or(exr::Compression::zip)});
+       .compression = options.pictures.compression.value_or(io::exr::Compression::zip)});
 }
 
 }  // namespace tenebra::viewer

@@ -15,6 +15,6 @@ Expected<std::string> exr_of_frame(const RenderPlan& plan, const RenderOptions& 
                                    const render::FrameResult& result);
 
 /// The camera as OpenEXR's header has it; `size` of the picture that the rays are of.
-exr::CameraMatrices camera_matrices(const ViewRays& view, Size size);
+io::exr::CameraMatrices camera_matrices(const ViewRays& view, Size size);
 
 }  // namespace tenebra::viewer

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "base/fail.h"
-#include "base/output_file.h"
 #include "commands/command.h"
+#include "io/output_file.h"
 #include "log/log_merge.h"
 #include "log/log_summary.h"
 #include "log/report.h"
@@ -91,7 +91,7 @@ Expected<int> merge(const LogOptions& options) {
   if (!merged) return tl::unexpected(merged.error());
   print_remarks(merged->remarks);
   const StopSignals stop;
-  if (auto written = base::write_file(options.output, merged->text); !written)
+  if (auto written = io::write_file(options.output, merged->text); !written)
     return tl::unexpected(written.error());
   print_out("{} frames of {} logs in {}\n", merged->frames, logs.size(), options.output);
   return 0;
@@ -148,8 +148,7 @@ Expected<int> report(const LogOptions& options) {
   const auto page = report_page(logs, *pictures);
   if (!page) return tl::unexpected(page.error());
   const StopSignals stop;
-  if (auto written = base::write_file(options.output, *page); !written)
-    return tl::unexpected(written.error());
+  if (auto written = io::write_file(options.output, *page); !written) return tl::unexpected(written.error());
   print_out("{} KB in {}\n", (page->size() + 999) / 1000, options.output);
   return 0;
 }

@@ -8,13 +8,13 @@
 #include <optional>
 
 #include "base/fail.h"
-#include "base/output_file.h"
-#include "base/stream_writer.h"
 #include "commands/command.h"
 #include "commands/frame_budget.h"
 #include "commands/render_identity.h"
 #include "commands/render_log.h"
 #include "commands/render_output.h"
+#include "io/output_file.h"
+#include "io/stream_writer.h"
 #include "options/config_file.h"
 #include "options/memory_option.h"
 #include "parallel/job_queue.h"
@@ -47,10 +47,10 @@ Expected<void> prepare_folders(const RenderOptions& options) {
   if (options.pictures.files) patterns.push_back(*options.pictures.files);
   for (const OutputPattern& pattern : patterns) {
     if (auto prepared = pattern.prepare_folder(); !prepared) return prepared;
-    base::remove_stale_temporaries(pattern.file(0).parent_path());
+    io::remove_stale_temporaries(pattern.file(0).parent_path());
   }
   const AoConfig& ao = options.method.render.ao;
-  if (ao.mode != AoMode::none && !ao.cache.empty()) base::remove_stale_temporaries(ao.cache);
+  if (ao.mode != AoMode::none && !ao.cache.empty()) io::remove_stale_temporaries(ao.cache);
   return {};
 }
 
@@ -253,7 +253,7 @@ void print_summary(const RenderPlan& plan, const RenderOptions& options, std::sp
 Expected<int> render(const RenderOptions& options) {
   if (auto checked = check_render_options(options); !checked) return tl::unexpected(checked.error());
   if (auto limited = limit_memory(options.memory_mb); !limited) return tl::unexpected(limited.error());
-  if (options.pictures.to_pipe && base::stdout_is_terminal())
+  if (options.pictures.to_pipe && io::stdout_is_terminal())
     return base::fail(
         "-o - writes pictures to standard output, which is a terminal; expected a pipe or a file");
   StopSignals stop(options.timeout_s, StopSignals::Start::at_once);

@@ -7,7 +7,7 @@
 #include <map>
 #include <string_view>
 
-#include "base/file_hash.h"
+#include "io/file_hash.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -56,17 +56,17 @@ std::map<std::string, std::string> by_name(std::span<const render::LogSetting> s
 
 Expected<std::vector<render::LogSetting>> describe_sources(const RenderPlan& plan,
                                                            const RenderOptions& options) {
-  const auto program = base::file_hash("/proc/self/exe");
+  const auto program = io::file_hash("/proc/self/exe");
   if (!program) return tl::unexpected(program.error());
   std::string hashes;
   for (const auto& file : plan.inputs) {
-    const auto hash = base::file_hash(file);
+    const auto hash = io::file_hash(file);
     if (!hash) return tl::unexpected(hash.error());
     hashes += *hash;
   }
   std::vector<render::LogSetting> list{
       {"program", fmt::format("tenebra {} {}", TENEBRA_VERSION, *program)},
-      {"input_files", fmt::format("{}, {}", plan.inputs.size(), base::text_hash(hashes))},
+      {"input_files", fmt::format("{}, {}", plan.inputs.size(), io::text_hash(hashes))},
       {"fps", fmt::format("{}", options.scene.fps)},
       {"outputs", outputs_text(options)}};
   if (options.scene.time_s) list.push_back({"time", fmt::format("{} s", *options.scene.time_s)});

@@ -7,11 +7,11 @@
 #include <filesystem>
 
 #include "base/fail.h"
-#include "base/file_hash.h"
-#include "base/output_file.h"
-#include "base/stream_writer.h"
 #include "commands/exr_output.h"
 #include "commands/render_identity.h"
+#include "io/file_hash.h"
+#include "io/output_file.h"
+#include "io/stream_writer.h"
 #include "render/mask_colour.h"
 #include "shared/render_files.h"
 
@@ -29,8 +29,8 @@ bool is_there(const fs::path& file) {
 /// frame is drawn again.
 std::string hash_of(const std::vector<OutputName>& files) {
   std::string hashes;
-  for (const OutputName& output : files) hashes += base::file_hash(output.file).value_or("none") + "\n";
-  return base::text_hash(hashes);
+  for (const OutputName& output : files) hashes += io::file_hash(output.file).value_or("none") + "\n";
+  return io::text_hash(hashes);
 }
 
 /// What a log that is continued does not say yet: another machine, other frames.
@@ -48,8 +48,8 @@ std::vector<render::LogSetting> changes(const render::LogPast& past,
 }
 
 /// Rounded to levels, each 1/255 of white, 255 at most.
-base::Image8 error_levels(const base::ImageF& errors) {
-  base::Image8 out{errors.width, errors.height, 1, {}};
+io::Image8 error_levels(const io::ImageF& errors) {
+  io::Image8 out{errors.width, errors.height, 1, {}};
   for (const float error : errors.pixels)
     out.pixels.push_back(static_cast<std::uint8_t>(std::min(std::round(error), 255.0f)));
   return out;
@@ -61,7 +61,7 @@ Expected<void> RenderOutput::open(std::vector<render::LogSetting> settings) {
   for (render::LogSetting& setting : settings)  // as they are read again
     setting = {render::on_one_line(setting.name), render::on_one_line(setting.value)};
   identity_ = identity_of(settings);
-  settings.push_back({"settings_hash", base::text_hash(render::log_head(identity_, ""))});
+  settings.push_back({"settings_hash", io::text_hash(render::log_head(identity_, ""))});
   if (auto opened = open_done_list(identity_); !opened) return opened;
   if (!options_.log.empty())
     if (auto opened = open_log(settings, identity_); !opened) return opened;
@@ -156,20 +156,20 @@ Expected<void> RenderOutput::write_pictures(const PlannedFrame& frame,
   if (options_.pictures.to_pipe) return write_to_pipe(result.image);
   if (!options_.pictures.files) return {};
   const fs::path file = options_.pictures.files->file(frame.frame);
-  if (!options_.pictures.are_exr()) return base::write_png(file, result.image);
+  if (!options_.pictures.are_exr()) return io::write_png(file, result.image);
   const auto bytes = exr_of_frame(plan_, options_, identity_, frame, result);
   if (!bytes) return base::fail("cannot write {}: {}", file.string(), bytes.error().message);
-  return base::write_file(file, *bytes);
+  return io::write_file(file, *bytes);
 }
 
-Expected<void> RenderOutput::write_to_pipe(const base::Image8& image) const {
+Expected<void> RenderOutput::write_to_pipe(const io::Image8& image) const {
   if (options_.pictures.pipe_format == PipeFormat::rgb24) {
     const auto* const rows = reinterpret_cast<const char*>(image.pixels.data());
-    return base::write_to_stdout({rows, image.pixels.size()}, &stop_);
+    return io::write_to_stdout({rows, image.pixels.size()}, &stop_);
   }
-  const auto bytes = base::encode_png(image);
+  const auto bytes = io::encode_png(image);
   if (!bytes) return base::fail("cannot write standard output: {}", bytes.error().message);
-  return base::write_to_stdout(*bytes, &stop_);
+  return io::write_to_stdout(*bytes, &stop_);
 }
 
 Expected<void> RenderOutput::write_masks(int frame, const render::LightMask& mask) const {
@@ -177,19 +177,19 @@ Expected<void> RenderOutput::write_masks(int frame, const render::LightMask& mas
   for (const OutputPattern& pattern : options_.masks) {
     const auto file = pattern.file(frame, light);
     auto written =
-        pattern.is_pfm() ? base::write_pfm(file, mask.visible_fraction) : base::write_png(file, mask.mask);
+        pattern.is_pfm() ? io::write_pfm(file, mask.visible_fraction) : io::write_png(file, mask.mask);
     if (!written) return written;
   }
   for (const OutputPattern& pattern : options_.mask_colours) {
     const auto file = pattern.file(frame, light);
-    auto written = pattern.is_pfm() ? base::write_pfm(file, render::mask_colour(mask))
-                                    : base::write_png(file, render::mask_colour8(mask));
+    auto written = pattern.is_pfm() ? io::write_pfm(file, render::mask_colour(mask))
+                                    : io::write_png(file, render::mask_colour8(mask));
     if (!written) return written;
   }
   for (const OutputPattern& pattern : options_.error_maps) {
     const auto file = pattern.file(frame, light);
-    auto written = pattern.is_pfm() ? base::write_pfm(file, mask.error)
-                                    : base::write_png(file, error_levels(mask.error));
+    auto written =
+        pattern.is_pfm() ? io::write_pfm(file, mask.error) : io::write_png(file, error_levels(mask.error));
     if (!written) return written;
   }
   return write_sample_masks(frame, light, mask);
@@ -199,14 +199,14 @@ Expected<void> RenderOutput::write_sample_masks(int frame, const std::string& li
                                                 const render::LightMask& mask) const {
   for (const OutputPattern& pattern : options_.mask_means) {
     const auto file = pattern.file(frame, light);
-    auto written = pattern.is_pfm() ? base::write_pfm(file, mask.mean)
-                                    : base::write_png(file, render::in_levels(mask.mean));
+    auto written =
+        pattern.is_pfm() ? io::write_pfm(file, mask.mean) : io::write_png(file, render::in_levels(mask.mean));
     if (!written) return written;
   }
   for (const OutputPattern& pattern : options_.mask_samples)
     for (std::size_t k = 0; k < mask.samples.size(); ++k) {
       const auto file = pattern.file(frame, fmt::format("{}_S{}", light, k));
-      if (auto written = base::write_png(file, mask.samples[k]); !written) return written;
+      if (auto written = io::write_png(file, mask.samples[k]); !written) return written;
     }
   return {};
 }

@@ -40,7 +40,7 @@ private:
   bool is_done(int frame) const;
   std::vector<PlannedFrame> find_frames_left() const;
   Expected<void> write_pictures(const PlannedFrame& frame, const render::FrameResult& result) const;
-  Expected<void> write_to_pipe(const base::Image8& image) const;
+  Expected<void> write_to_pipe(const io::Image8& image) const;
   Expected<void> write_masks(int frame, const render::LightMask& mask) const;
   Expected<void> write_sample_masks(int frame, const std::string& light, const render::LightMask& mask) const;
   Expected<void> add_row(const render::FrameRecord& record, const std::vector<std::string>& notes);

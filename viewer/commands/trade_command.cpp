@@ -7,8 +7,8 @@
 
 #include "base/fail.h"
 #include "base/machine.h"
-#include "base/output_file.h"
 #include "commands/command.h"
+#include "io/output_file.h"
 #include "options/config_file.h"
 #include "options/memory_option.h"
 #include "options/method_arguments.h"
@@ -159,7 +159,7 @@ Expected<void> print_result(const TradeOptions& options, const TradeHeading& hea
   if (options.output.empty()) return {};
   const auto page = trade_page(heading, result);
   if (!page) return tl::unexpected(page.error());
-  return base::write_file(options.output, *page);
+  return io::write_file(options.output, *page);
 }
 
 void print_command(const TradeOptions& options, const TradeHeading& heading, const std::string& words) {

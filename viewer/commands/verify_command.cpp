@@ -7,10 +7,10 @@
 #include <tenebra/threads.h>
 #include "base/fail.h"
 #include "base/machine.h"
-#include "base/output_file.h"
 #include "base/stopwatch.h"
 #include "commands/command.h"
 #include "commands/verify_report.h"
+#include "io/output_file.h"
 #include "options/choices.h"
 #include "options/config_file.h"
 #include "options/memory_option.h"
@@ -201,7 +201,7 @@ private:
 
 Expected<void> write_report(const std::string& path, const Verification& verification) {
   if (path.empty()) return {};
-  return base::write_file(
+  return io::write_file(
       path, path.ends_with(".json") ? verification_json(verification) : verification_text(verification));
 }
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "base/fail.h"
-#include "base/image.h"
+#include "io/image.h"
 #include "log/page_text.h"
 
 namespace tenebra::viewer {
@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 
 /// Means of k x k pixels, of values as they are stored; what is left over at the right and below is dropped.
 /// Grey with alpha becomes grey: PNGs are not written with both.
-base::Image8 made_small(const base::Image8& picture, int k) {
-  base::Image8 small;
+io::Image8 made_small(const io::Image8& picture, int k) {
+  io::Image8 small;
   small.width = std::max(picture.width / k, 1);
   small.height = std::max(picture.height / k, 1);
   small.channels = picture.channels == 2 ? 1 : picture.channels;
@@ -38,8 +38,8 @@ base::Image8 made_small(const base::Image8& picture, int k) {
   return small;
 }
 
-Expected<base::Image8> read_small(const fs::path& path) {
-  const auto picture = base::read_png(path);
+Expected<io::Image8> read_small(const fs::path& path) {
+  const auto picture = io::read_png(path);
   if (!picture) return tl::unexpected(picture.error());
   const int k = (picture->width + widest_page_picture - 1) / widest_page_picture;
   return made_small(*picture, std::max(k, 1));
@@ -66,8 +66,8 @@ Expected<PagePicture> page_picture(int frame, const OutputPattern& a, const Outp
 
 }  // namespace
 
-Expected<std::string> data_uri(const base::Image8& picture) {
-  const auto png = base::encode_png(picture);
+Expected<std::string> data_uri(const io::Image8& picture) {
+  const auto png = io::encode_png(picture);
   if (!png) return tl::unexpected(png.error());
   return "data:image/png;base64," + base64(*png);
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/image.h"
+#include "io/image.h"
 #include "log/log_file.h"
 #include "options/output_pattern.h"
 
@@ -19,7 +19,7 @@ struct PagePicture {
 };
 
 /// A picture as PNG, for the source of an image.
-Expected<std::string> data_uri(const base::Image8& picture);
+Expected<std::string> data_uri(const io::Image8& picture);
 
 /// --pictures: a folder of pictures that are named as `render` names them (%04d.png), or a pattern.
 Expected<OutputPattern> picture_pattern(const std::string& text);

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <vector>
 
-#include "base/input_file.h"
+#include "io/input_file.h"
 #include "options/nearest_word.h"
 
 namespace tenebra::viewer {
@@ -79,7 +79,7 @@ CLI::App* command_of(CLI::App& command, const std::vector<CLI::App*>& commands, 
 }
 
 std::vector<CLI::ConfigItem> read_items(const std::string& path) {
-  const auto text = base::read_file(path, most_bytes);
+  const auto text = io::read_file(path, most_bytes);
   if (!text) throw CLI::ValidationError(config_option, text.error().message);
   std::istringstream lines(*text);
   return CLI::ConfigBase().from_config(lines);

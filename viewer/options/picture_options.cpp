@@ -11,10 +11,10 @@ namespace {
 
 constexpr std::array pipe_choices{Choice<PipeFormat>{"png", PipeFormat::png},
                                   Choice<PipeFormat>{"rgb24", PipeFormat::rgb24}};
-constexpr std::array exr_type_choices{Choice<exr::Precision>{"half", exr::Precision::half},
-                                      Choice<exr::Precision>{"float", exr::Precision::full}};
-constexpr std::array exr_compression_choices{Choice<exr::Compression>{"zip", exr::Compression::zip},
-                                             Choice<exr::Compression>{"piz", exr::Compression::piz}};
+constexpr std::array exr_type_choices{Choice<io::exr::Precision>{"half", io::exr::Precision::half},
+                                      Choice<io::exr::Precision>{"float", io::exr::Precision::full}};
+constexpr std::array exr_compression_choices{Choice<io::exr::Compression>{"zip", io::exr::Compression::zip},
+                                             Choice<io::exr::Compression>{"piz", io::exr::Compression::piz}};
 
 struct AovName {
   std::string_view name;
@@ -121,8 +121,8 @@ std::string pictures_text(const PictureOptions& options) {
   if (!options.files) return "no pictures";
   std::string text = "-o " + std::filesystem::path(options.files->text()).filename().string();
   if (!options.are_exr()) return text;
-  text += " (" + choice_name(exr_type_choices, options.precision.value_or(exr::Precision::half)) + ", " +
-          choice_name(exr_compression_choices, options.compression.value_or(exr::Compression::zip));
+  text += " (" + choice_name(exr_type_choices, options.precision.value_or(io::exr::Precision::half)) + ", " +
+          choice_name(exr_compression_choices, options.compression.value_or(io::exr::Compression::zip));
   render::AovChoice aovs = options.aovs;
   for (const AovName& aov : aov_names)
     if (aov.wanted(aovs)) text += fmt::format(", {}", aov.name);

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "exr/exr_file.h"
+#include "io/exr/exr_file.h"
 #include "options/output_pattern.h"
 #include "render/renderer.h"
 #include "shell/command_line.h"
@@ -20,8 +20,8 @@ struct PictureOptions {
   bool to_pipe = false;                ///< -o -
   std::optional<PipeFormat> pipe_format;
   render::AovChoice aovs;  ///< further layers of OpenEXR pictures
-  std::optional<exr::Precision> precision;
-  std::optional<exr::Compression> compression;
+  std::optional<io::exr::Precision> precision;
+  std::optional<io::exr::Compression> compression;
 
   bool are_exr() const { return files && files->is_exr(); }
 };

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "base/fail.h"
-#include "base/output_stream.h"
+#include "io/output_stream.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -24,7 +24,7 @@ Expected<void> check_kind(const fs::path& output) {
     if (errno == ENOENT) return {};
     return base::fail("cannot write {}: {}", output.string(), std::generic_category().message(errno));
   }
-  const auto stream = base::open_stream(output, found);
+  const auto stream = io::open_stream(output, found);
   return stream ? Expected<void>() : tl::unexpected(stream.error());
 }
 

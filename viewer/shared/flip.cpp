@@ -187,8 +187,7 @@ struct Seen {
   std::vector<double> edge, point;  ///< how strong features are
 };
 
-std::array<Plane, 3> opponent_rows(const base::ImageF& image, std::size_t first, std::size_t last,
-                                   int margin) {
+std::array<Plane, 3> opponent_rows(const io::ImageF& image, std::size_t first, std::size_t last, int margin) {
   const auto width = static_cast<std::size_t>(image.width);
   const std::size_t rows = last - first + 2 * static_cast<std::size_t>(margin);
   std::array<Plane, 3> planes{Plane(width, rows), Plane(width, rows), Plane(width, rows)};
@@ -218,7 +217,7 @@ std::vector<double> strength(const Plane& light, const Taps& taps, const Taps& a
   return out;
 }
 
-Seen seen_rows(const base::ImageF& image, std::size_t first, std::size_t last, const Filters& filters) {
+Seen seen_rows(const io::ImageF& image, std::size_t first, std::size_t last, const Filters& filters) {
   std::array<Plane, 3> planes = opponent_rows(image, first, last, filters.margin);
   const auto width = static_cast<std::size_t>(image.width), margin = static_cast<std::size_t>(filters.margin);
   std::vector<dvec3> blurred(width * (last - first), dvec3(0.0));
@@ -249,7 +248,7 @@ double flip_sum(const Seen& a, const Seen& b) {
 
 }  // namespace
 
-double mean_flip(const base::ImageF& a, const base::ImageF& b) {
+double mean_flip(const io::ImageF& a, const io::ImageF& b) {
   const Filters filters;
   const auto height = static_cast<std::size_t>(a.height);
   std::vector<double> sums((height + rows_at_once - 1) / rows_at_once);

@@ -3,7 +3,7 @@
 // range.
 #pragma once
 
-#include "base/image.h"
+#include "io/image.h"
 
 namespace tenebra::viewer {
 
@@ -13,6 +13,6 @@ inline constexpr double pixels_per_degree = 67.0206432765823;
 /// The mean over the pixels, 0 (equal) to 1. Both have one size and three channels: linear, of the primaries
 /// of sRGB; what is beyond 0 to 1 counts as 0 or 1. The order of the two does not matter. The bits do not
 /// depend on the number of threads.
-double mean_flip(const base::ImageF& a, const base::ImageF& b);
+double mean_flip(const io::ImageF& a, const io::ImageF& b);
 
 }  // namespace tenebra::viewer

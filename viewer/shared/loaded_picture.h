@@ -5,18 +5,18 @@
 #include <string>
 #include <variant>
 
-#include "base/image.h"
+#include "io/image.h"
 
 namespace tenebra::viewer {
 
 /// 8 bits as stored, or floats: one or three channels.
-using LoadedPicture = std::variant<base::Image8, base::ImageF>;
+using LoadedPicture = std::variant<io::Image8, io::ImageF>;
 
 /// By the end of the name: .exr (`layer` of it, or the colours where that is empty), .pfm, else PNG. Fails
 /// with a sentence.
 Expected<LoadedPicture> load_picture(const std::filesystem::path& path, const std::string& layer);
 
 /// Three channels: PNG by the curve of sRGB and without its alpha, floats as they are, one channel thrice.
-base::ImageF linear_colors(const LoadedPicture& picture);
+io::ImageF linear_colors(const LoadedPicture& picture);
 
 }  // namespace tenebra::viewer

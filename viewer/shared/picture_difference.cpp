@@ -16,7 +16,7 @@ constexpr int largest_value = 255;
 using Pixel = std::array<int, 4>;
 
 /// Pixel `index` as red, green, blue, alpha.
-Pixel pixel_of(const base::Image8& image, std::size_t index) {
+Pixel pixel_of(const io::Image8& image, std::size_t index) {
   const std::uint8_t* values = image.pixels.data() + index * static_cast<std::size_t>(image.channels);
   switch (image.channels) {
     case 1:
@@ -46,8 +46,8 @@ double distance(float a, float b) {
 
 }  // namespace
 
-PictureDifference compare_pictures(const base::Image8& a, const base::Image8& b, int threshold,
-                                   base::Image8* marked) {
+PictureDifference compare_pictures(const io::Image8& a, const io::Image8& b, int threshold,
+                                   io::Image8* marked) {
   PictureDifference result;
   result.pixels = static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height);
   if (marked) *marked = {a.width, a.height, 3, std::vector<std::uint8_t>(result.pixels * 3)};
@@ -66,8 +66,8 @@ PictureDifference compare_pictures(const base::Image8& a, const base::Image8& b,
   return result;
 }
 
-ValueDifference compare_values(const base::ImageF& a, const base::ImageF& b, double threshold,
-                               base::Image8* marked) {
+ValueDifference compare_values(const io::ImageF& a, const io::ImageF& b, double threshold,
+                               io::Image8* marked) {
   ValueDifference result;
   result.pixels = a.pixels.size() / 3;
   if (marked) *marked = {a.width, a.height, 3, std::vector<std::uint8_t>(a.pixels.size())};
@@ -88,7 +88,7 @@ ValueDifference compare_values(const base::ImageF& a, const base::ImageF& b, dou
   return result;
 }
 
-double rms_difference(const base::Image8& a, const base::Image8& b) {
+double rms_difference(const io::Image8& a, const io::Image8& b) {
   const std::size_t count = static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height);
   double sum = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -98,7 +98,7 @@ double rms_difference(const base::Image8& a, const base::Image8& b) {
   return std::sqrt(sum / (3 * static_cast<double>(count)));
 }
 
-double rms_difference(const base::ImageF& a, const base::ImageF& b) {
+double rms_difference(const io::ImageF& a, const io::ImageF& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i) {
     const double difference = distance(a.pixels[i], b.pixels[i]);
@@ -107,8 +107,8 @@ double rms_difference(const base::ImageF& a, const base::ImageF& b) {
   return std::sqrt(sum / static_cast<double>(a.pixels.size()));
 }
 
-base::Image8 absolute_difference(const base::Image8& a, const base::Image8& b, int gain) {
-  base::Image8 out{a.width, a.height, a.channels, std::vector<std::uint8_t>(a.pixels.size())};
+io::Image8 absolute_difference(const io::Image8& a, const io::Image8& b, int gain) {
+  io::Image8 out{a.width, a.height, a.channels, std::vector<std::uint8_t>(a.pixels.size())};
   for (std::size_t i = 0; i < out.pixels.size(); ++i) {
     const int difference = std::abs(a.pixels[i] - b.pixels[i]) * gain;
     out.pixels[i] = static_cast<std::uint8_t>(std::min(difference, largest_value));

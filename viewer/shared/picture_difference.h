@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "base/image.h"
+#include "io/image.h"
 
 namespace tenebra::viewer {
 
@@ -15,8 +15,8 @@ struct PictureDifference {
 };
 
 /// Sizes must be equal. `marked`, if given: `a` dark and grey, differing pixels red.
-PictureDifference compare_pictures(const base::Image8& a, const base::Image8& b, int threshold,
-                                   base::Image8* marked = nullptr);
+PictureDifference compare_pictures(const io::Image8& a, const io::Image8& b, int threshold,
+                                   io::Image8* marked = nullptr);
 
 /// The same of linear values, of pictures with three channels.
 struct ValueDifference {
@@ -26,15 +26,15 @@ struct ValueDifference {
 };
 
 /// Sizes must be equal. `marked` as above, of what a picture would show of `a`.
-ValueDifference compare_values(const base::ImageF& a, const base::ImageF& b, double threshold,
-                               base::Image8* marked = nullptr);
+ValueDifference compare_values(const io::ImageF& a, const io::ImageF& b, double threshold,
+                               io::Image8* marked = nullptr);
 
 /// Root of the mean square of the differences of red, green and blue, in levels of 255 or in values; infinite
 /// where a value that is not finite differs.
-double rms_difference(const base::Image8& a, const base::Image8& b);
-double rms_difference(const base::ImageF& a, const base::ImageF& b);
+double rms_difference(const io::Image8& a, const io::Image8& b);
+double rms_difference(const io::ImageF& a, const io::ImageF& b);
 
 /// |a - b| of each channel times `gain`, clamped to 255. Sizes and channels must be equal.
-base::Image8 absolute_difference(const base::Image8& a, const base::Image8& b, int gain);
+io::Image8 absolute_difference(const io::Image8& a, const io::Image8& b, int gain);
 
 }  // namespace tenebra::viewer

@@ -74,7 +74,7 @@ Expected<ScenePlan> plan_scene(const SceneOptions& options) {
   }
   if (options.transfer) plan.scene.transfer = *options.transfer;
   if (!options.environment.empty()) {
-    auto picture = base::read_hdr(options.environment);
+    auto picture = io::read_hdr(options.environment);
     if (!picture) return base::fail("--environment: {}", picture.error().message);
     plan.environment = std::move(*picture);
   }

@@ -3,7 +3,7 @@
 
 #include <tenebra/additions.h>
 #include <tenebra/frame_geometry.h>
-#include "base/image.h"
+#include "io/image.h"
 #include "options/method_options.h"
 #include "options/scene_options.h"
 
@@ -13,9 +13,9 @@ struct ScenePlan {
   Scene scene;  ///< with cameras and lights added and casters left out; Scene::lights in the order of the
                 ///< nodes that have them, each node its own
   int clip = -1;
-  int camera = 0;                           ///< index into scene.cameras; unused with --eye
-  Size size;                                ///< --size, or what the camera asks for
-  std::optional<base::ImageF> environment;  ///< --environment, or the soft sky of an added light
+  int camera = 0;                         ///< index into scene.cameras; unused with --eye
+  Size size;                              ///< --size, or what the camera asks for
+  std::optional<io::ImageF> environment;  ///< --environment, or the soft sky of an added light
   SceneDisplay display;
   AddedParts added;
 };

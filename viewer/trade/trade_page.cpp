@@ -110,7 +110,7 @@ std::string table_of(const TradeHeading& heading, const TradeResult& result) {
 
 Expected<std::string> crops_of(const TradeResult& result) {
   std::string text = "<div class=\"crops\">\n";
-  const auto add = [&](const base::Image8& crop, const std::string& caption) -> Expected<void> {
+  const auto add = [&](const io::Image8& crop, const std::string& caption) -> Expected<void> {
     const auto image = data_uri(crop);
     if (!image) return tl::unexpected(image.error());
     text += fmt::format("<figure><img alt=\"\" src=\"{}\"><figcaption>{}</figcaption></figure>\n", *image,

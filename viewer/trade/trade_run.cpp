@@ -38,8 +38,8 @@ double peak_memory_mb() {
   return 0;
 }
 
-base::Image8 cut_out(const base::Image8& picture, int x0, int y0) {
-  base::Image8 crop;
+io::Image8 cut_out(const io::Image8& picture, int x0, int y0) {
+  io::Image8 crop;
   crop.width = std::min(crop_size, picture.width);
   crop.height = std::min(crop_size, picture.height);
   crop.channels = picture.channels;
@@ -52,7 +52,7 @@ base::Image8 cut_out(const base::Image8& picture, int x0, int y0) {
   return crop;
 }
 
-double squared_sum(const base::Image8& a, const base::Image8& b) {
+double squared_sum(const io::Image8& a, const io::Image8& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i) {
     const int d = int(a.pixels[i]) - int(b.pixels[i]);
@@ -62,7 +62,7 @@ double squared_sum(const base::Image8& a, const base::Image8& b) {
 }
 
 /// The upper left corner of the crop in which two pictures differ most, on a grid of half crops.
-std::pair<int, int> differing_most(const base::Image8& a, const base::Image8& b) {
+std::pair<int, int> differing_most(const io::Image8& a, const io::Image8& b) {
   std::pair<int, int> best{0, 0};
   double most = -1;
   for (int y = 0; y + std::min(crop_size, a.height) <= a.height; y += crop_size / 2)
@@ -94,7 +94,7 @@ public:
     done(finest_steps);
     auto sweep = sweep_axes();
     if (!sweep) return tl::unexpected(sweep.error());
-    const base::Image8& middle = reference->pictures[middle_frame()];
+    const io::Image8& middle = reference->pictures[middle_frame()];
     std::tie(result.crop_x, result.crop_y) = differing_most(middle, coarsest_picture_);
     result.reference_crop = cut_out(middle, result.crop_x, result.crop_y);
     result.measured.push_back(judged(finest(request_.axes), *reference, *reference, result));
@@ -130,8 +130,8 @@ public:
 
 private:
   struct Drawn {
-    std::vector<base::Image8> pictures;  ///< one for each frame
-    std::vector<double> ms;              ///< for each timed frame the median of the repeats
+    std::vector<io::Image8> pictures;  ///< one for each frame
+    std::vector<double> ms;            ///< for each timed frame the median of the repeats
     double first_ms = 0;
     double peak_mb = 0;  ///< 0: unknown
   };
@@ -218,7 +218,7 @@ private:
   Expected<std::vector<TradePoint>> sweep_axis(const TradePoint& coarsest,
                                                std::span<const TradeSetting> settings) {
     std::vector<TradePoint> points{coarsest};
-    std::vector<base::Image8> pictures{coarsest_picture_};
+    std::vector<io::Image8> pictures{coarsest_picture_};
     for (const TradeSetting& setting : settings.subspan(1)) {
       const auto point = sweep_one(setting);
       if (!point) return tl::unexpected(point.error());
@@ -320,7 +320,7 @@ private:
     for (std::size_t i = step / 2; i < frames.size(); i += step) {
       const auto drawn = draw_frame(renderer, frames[i], with_setting(request_.settings, axes, coarse));
       if (!drawn) return drawn;
-      const base::Image8 picture = result_.image;
+      const io::Image8 picture = result_.image;
       const auto again = draw_frame(renderer, frames[i], with_setting(request_.settings, axes, finer));
       if (!again) return again;
       worst = std::max(worst, rms_difference(picture, result_.image));
@@ -371,7 +371,7 @@ private:
   std::optional<render::Renderer> sweeping_;
   render::FrameInput input_;
   render::FrameResult result_;
-  base::Image8 coarsest_picture_;  ///< of the frame in the middle
+  io::Image8 coarsest_picture_;  ///< of the frame in the middle
   double steps_ = 1, done_ = 0;
   const Clock::time_point begun_ = Clock::now();
 };

@@ -19,8 +19,8 @@ struct TradedSetting {
   double worst_error = 0;            ///< of the frame that is off most, RMS, levels of 255
   double first_frame_ms = 0;         ///< of a renderer that has drawn none
   double peak_mb =
-      0;  ///< memory of the program while it was drawn, 2^20 bytes; 0 where the system does not say
-  base::Image8 crop;  ///< of the frame in the middle
+      0;            ///< memory of the program while it was drawn, 2^20 bytes; 0 where the system does not say
+  io::Image8 crop;  ///< of the frame in the middle
 };
 
 struct TradeResult {
@@ -29,7 +29,7 @@ struct TradeResult {
   std::vector<TradedSetting> measured;  ///< from the quickest, not all of them on the front
   std::vector<std::size_t> front;       ///< of these
   double spread = 1;                    ///< errors of the worst frame of all, over the worst of `frames`
-  base::Image8 reference_crop;          ///< of the finest setting
+  io::Image8 reference_crop;            ///< of the finest setting
   int crop_x = 0, crop_y = 0;           ///< where the crops are, pixels
 };
 

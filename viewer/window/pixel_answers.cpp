@@ -6,7 +6,7 @@ namespace {
 /// Where the ray through the right lower corner of the picture leads, as ViewRays::d0 has it of the left
 /// upper one.
 glm::vec3 lower_right_corner(const Picture& picture) {
-  const base::Image8& image = picture.a.result.image;
+  const io::Image8& image = picture.a.result.image;
   const ViewRays& view = picture.view;
   return view.d0 + static_cast<float>(image.width) * view.dx + static_cast<float>(image.height) * view.dy;
 }
@@ -21,7 +21,7 @@ bool same_place(const Picture& a, const Picture& b) {
 }  // namespace
 
 void PixelAnswers::ask(QuestionKind kind, const std::shared_ptr<const Picture>& picture, glm::dvec2 place) {
-  const base::Image8& image = picture->a.result.image;
+  const io::Image8& image = picture->a.result.image;
   const glm::ivec2 pixel = pixel_at(place, {image.width, image.height});
   if (pixel.x < 0 || pixel.y < 0 || pixel.x >= image.width || pixel.y >= image.height) return;
   if (kind == QuestionKind::explain) asked_ = picture, place_ = place;

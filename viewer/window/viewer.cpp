@@ -202,7 +202,7 @@ void Viewer::frame_all() {
   if (!picture_) return;
   Ui ui = ui_at_rest();
   leave_scene_camera(ui, CameraMode::orbit);
-  const base::Image8& image = picture_->a.result.image;
+  const io::Image8& image = picture_->a.result.image;
   frame(state_.free, state_.centre - state_.half_size_m, state_.centre + state_.half_size_m,
         static_cast<double>(image.width) / image.height);
   state_.pivot.reset();
@@ -292,7 +292,7 @@ void Viewer::draw(float scale, float pixels_a_unit) {
   const Size shown = picture_size(state_, layout.view, pixels_a_unit);
   place_ = state_.size.value_or(shown);
   if (picture_) {
-    const base::Image8& image = picture_->a.result.image;
+    const io::Image8& image = picture_->a.result.image;
     textures_.show(picture_, state_,
                    picture_->preview.empty() && image.width <= shown.width && image.height <= shown.height);
   }

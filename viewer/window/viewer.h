@@ -76,7 +76,7 @@ private:
   void say(std::string text, bool failure = false);
   // What is written.
   void save_picture();
-  void save_shot(const char* what, const base::Image8& image);
+  void save_shot(const char* what, const io::Image8& image);
   void toggle_log();
   void log_picture(const Picture& picture);
   void toggle_recording();

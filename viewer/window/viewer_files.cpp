@@ -6,9 +6,9 @@
 
 namespace tenebra::viewer {
 
-void Viewer::save_shot(const char* what, const base::Image8& image) {
+void Viewer::save_shot(const char* what, const io::Image8& image) {
   const auto file = next_unused(*options_.shots, shots_);
-  const auto written = base::write_png(file, image);
+  const auto written = io::write_png(file, image);
   report_.note(written ? "shot" : "failure", written ? file.string() : written.error().message);
   say(written ? fmt::format("{} saved to {}", what, file.string()) : written.error().message, !written);
 }

@@ -93,9 +93,9 @@ void WindowGl::clear(int width, int height) {
   gl_->clear(GL_COLOR_BUFFER_BIT);
 }
 
-base::Image8 WindowGl::read_window(int width, int height) const {
+io::Image8 WindowGl::read_window(int width, int height) const {
   const auto row = static_cast<std::size_t>(width) * 3;
-  base::Image8 image{width, height, 3, std::vector<std::uint8_t>(row * static_cast<std::size_t>(height))};
+  io::Image8 image{width, height, 3, std::vector<std::uint8_t>(row * static_cast<std::size_t>(height))};
   gl_->pixel_store(GL_PACK_ALIGNMENT, 1);
   gl_->read_pixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, image.pixels.data());
   for (int y = 0; y < height / 2; ++y) {
@@ -116,7 +116,7 @@ void WindowGl::delete_texture(unsigned texture) {
   gl_->delete_textures(1, &texture);
 }
 
-void WindowGl::upload(unsigned texture, const base::Image8& image, bool smooth) {
+void WindowGl::upload(unsigned texture, const io::Image8& image, bool smooth) {
   const GLenum format = image.channels == 4 ? GL_RGBA : GL_RGB;
   const GLint filter = smooth ? GL_LINEAR : GL_NEAREST;
   gl_->bind_texture(GL_TEXTURE_2D, texture);

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <tenebra/expected.h>
-#include "base/image.h"
 #include "gl/context.h"
+#include "io/image.h"
 
 namespace tenebra::viewer {
 
@@ -21,12 +21,12 @@ public:
   WindowGl& operator=(WindowGl&&) noexcept;
   ~WindowGl();
 
-  void clear(int width, int height);                      ///< of the framebuffer, to the window's background
-  base::Image8 read_window(int width, int height) const;  ///< RGB, row 0 at the top, of what was last drawn
+  void clear(int width, int height);                    ///< of the framebuffer, to the window's background
+  io::Image8 read_window(int width, int height) const;  ///< RGB, row 0 at the top, of what was last drawn
 
   unsigned create_texture();
   /// RGB or RGBA. `smooth`: for pictures that are shown larger or smaller than they are.
-  void upload(unsigned texture, const base::Image8& image, bool smooth);
+  void upload(unsigned texture, const io::Image8& image, bool smooth);
   void delete_texture(unsigned texture);
 
   bool is_software() const;                  ///< it draws on the processors that pictures are computed on
@@ -46,7 +46,7 @@ public:
   PictureTexture(const PictureTexture&) = delete;
   PictureTexture& operator=(const PictureTexture&) = delete;
 
-  void show(const base::Image8& image, bool smooth) {
+  void show(const io::Image8& image, bool smooth) {
     gl_.upload(name_, image, smooth);
     width_ = image.width;
     height_ = image.height;

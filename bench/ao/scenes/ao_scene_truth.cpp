@@ -9,9 +9,9 @@
 #include <fstream>
 #include <limits>
 
-#include "base/output_file.h"
 #include "bench/ao/ao_peer.h"
 #include "bench/ao/ao_rays.h"
+#include "io/output_file.h"
 #include "parallel/parallel.h"
 
 namespace tenebra::bench {
@@ -76,7 +76,7 @@ void save(const std::filesystem::path& file, const std::vector<float>& values) {
   std::error_code ignored;
   std::filesystem::create_directories(file.parent_path(), ignored);
   const std::string_view bytes(reinterpret_cast<const char*>(values.data()), 4 * values.size());
-  (void)base::write_file(file, bytes);  // a cache: what is not kept is made anew
+  (void)io::write_file(file, bytes);  // a cache: what is not kept is made anew
 }
 
 /// Where a pixel's rays start and how they are spread.

@@ -11,8 +11,8 @@
 #include <system_error>
 
 #include "base/fail.h"
-#include "base/input_file.h"
-#include "base/output_file.h"
+#include "io/input_file.h"
+#include "io/output_file.h"
 
 namespace tenebra::ao {
 namespace {
@@ -88,7 +88,7 @@ Expected<void> save_cache_file(const fs::path& folder, const CacheKind& kind, co
   Header header{kind.magic, kind.version, 0, key, bytes.size(), size, {}};
   header.checksum = checksum(header, std::string_view(file).substr(sizeof header));
   std::memcpy(file.data(), &header, sizeof header);
-  return base::write_file(path, file);
+  return io::write_file(path, file);
 }
 
 Expected<CacheReader> CacheReader::open(const fs::path& folder, const CacheKind& kind, const CacheKey& key,
@@ -96,7 +96,7 @@ Expected<CacheReader> CacheReader::open(const fs::path& folder, const CacheKind&
   CacheReader reader;
   reader.path_ = cache_path(folder, kind, key);
   const std::string path = reader.path_.string();
-  Expected<std::string> bytes = base::read_file(reader.path_, sizeof(Header) + ZSTD_compressBound(most));
+  Expected<std::string> bytes = io::read_file(reader.path_, sizeof(Header) + ZSTD_compressBound(most));
   if (!bytes) return tl::unexpected(bytes.error());
   Header header{};
   if (bytes->size() < sizeof header)

@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "base/fail.h"
-#include "base/output_file.h"
 #include "formats/glb/writer.h"
 #include "formats/import_scene.h"
+#include "io/output_file.h"
 
 namespace tenebra::formats {
 namespace {
@@ -70,8 +70,7 @@ Expected<std::vector<std::string>> export_glb(const Scene& scene, const std::fil
                                               double fps) {
   try {
     GlbWriter writer(scene, fps);
-    if (auto written = base::write_file(path, writer.write()); !written)
-      return tl::unexpected(written.error());
+    if (auto written = io::write_file(path, writer.write()); !written) return tl::unexpected(written.error());
     return std::move(writer.losses);
   } catch (const ImportFailure& failure) {
     return base::fail("{}: {}.", path.string(), failure.what());

@@ -1,15 +1,15 @@
 // Textures of a GLB: pictures embedded as PNG, samplers, and where they lie on the coordinates.
-#include "base/image.h"
 #include "formats/glb/writer.h"
+#include "io/image.h"
 
 namespace tenebra::formats {
 namespace {
 
 /// In three channels where no pixel lets anything through.
-base::Image8 picture_of(const TextureImage& image) {
+io::Image8 picture_of(const TextureImage& image) {
   bool opaque = true;
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) opaque &= image.rgba[i] == 255;
-  base::Image8 picture{image.width, image.height, opaque ? 3 : 4, {}};
+  io::Image8 picture{image.width, image.height, opaque ? 3 : 4, {}};
   if (!opaque) {
     picture.pixels = image.rgba;
     return picture;
@@ -36,7 +36,7 @@ int GlbWriter::image_of(int image) {
   const auto [entry, is_new] = image_of_.try_emplace(image, static_cast<int>(image_of_.size()));
   if (!is_new) return entry->second;
   const TextureImage& source = scene_.images[static_cast<std::size_t>(image)];
-  const auto png = base::encode_png(picture_of(source));
+  const auto png = io::encode_png(picture_of(source));
   if (!png) refuse("texture '{}': {}", source.name, png.error().message);
   const std::size_t view = binary_.add_view(png->data(), png->size());  // may move what root_ holds
   root_["images"].push_back({{"name", source.name}, {"mimeType", "image/png"}, {"bufferView", view}});

@@ -1,16 +1,16 @@
 #include "formats/images/decode.h"
 
-#include "base/image.h"
 #include "formats/import_failure.h"
+#include "io/image.h"
 
 namespace tenebra::formats {
 namespace {
 
 TextureImage decode_png_or_jpeg(std::string_view bytes, std::uint64_t& pixels_left) {
-  const auto size = base::stated_size(bytes);
+  const auto size = io::stated_size(bytes);
   if (!size) throw ImportFailure(size.error().message + ", expected a whole picture");
   charge_pixels(size->width, size->height, pixels_left);
-  auto decoded = base::decode_rgba(bytes);
+  auto decoded = io::decode_rgba(bytes);
   if (!decoded) throw ImportFailure(decoded.error().message + ", expected a whole picture");
   TextureImage image;
   image.width = decoded->width;
@@ -24,7 +24,7 @@ bool is_ppm(std::string_view bytes) {
 }
 
 TextureImage decode(std::string_view bytes, std::uint64_t& pixels_left) {
-  if (base::is_png_or_jpeg(bytes)) return decode_png_or_jpeg(bytes, pixels_left);
+  if (io::is_png_or_jpeg(bytes)) return decode_png_or_jpeg(bytes, pixels_left);
   if (is_ppm(bytes)) return decode_ppm(bytes, pixels_left);
   if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP"))
     return decode_webp(bytes, pixels_left);

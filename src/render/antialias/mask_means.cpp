@@ -15,8 +15,8 @@ float visible_at(const LitSamples& lit, std::size_t light, std::size_t slot) {
 }
 
 /// The visible part of a light at every pixel's centre.
-base::ImageF visible_fractions(const LightMask& mask) {
-  base::ImageF out{mask.mask.width, mask.mask.height, 1, mask.visible_fraction.pixels};
+io::ImageF visible_fractions(const LightMask& mask) {
+  io::ImageF out{mask.mask.width, mask.mask.height, 1, mask.visible_fraction.pixels};
   if (!out.pixels.empty()) return out;
   out.pixels.resize(mask.mask.pixels.size());
   parallel::parallel_ranges(out.pixels.size(), at_once, [&](std::size_t first, std::size_t last) {

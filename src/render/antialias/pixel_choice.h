@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "base/image.h"
+#include "io/image.h"
 #include "render/antialias/surface_match.h"
 #include "shade/light_terms.h"
 #include "visibility/place_ids.h"
@@ -19,7 +19,7 @@ struct CentrePicture {
   int height = 0;
   std::span<const std::uint32_t> ids;    ///< opaque triangles, or no_triangle
   std::span<const std::uint32_t> layer;  ///< see-through ones before them; empty: the frame has none
-  const base::Image8& picture;
+  const io::Image8& picture;
   std::vector<std::span<const std::uint8_t>> masks;  ///< of each light
   std::vector<shade::TintFactors> tints;             ///< of each light, where something lets light through
 };

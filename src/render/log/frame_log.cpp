@@ -82,7 +82,7 @@ std::string log_head(std::span<const LogSetting> settings, std::string_view head
 }
 
 Expected<FrameLog> FrameLog::open(const std::filesystem::path& path) {
-  auto file = base::Journal::open(path);
+  auto file = io::Journal::open(path);
   if (!file) return tl::unexpected(file.error());
   return FrameLog(std::move(*file));
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <tenebra/expected.h>
-#include "base/journal.h"
+#include "io/journal.h"
 #include "render/log/frame_columns.h"
 
 namespace tenebra::render {
@@ -51,8 +51,8 @@ public:
   Expected<void> finish();
 
 private:
-  explicit FrameLog(base::Journal file) : file_(std::move(file)) {}
-  base::Journal file_;
+  explicit FrameLog(io::Journal file) : file_(std::move(file)) {}
+  io::Journal file_;
 };
 
 /// The header line: frame,time_s,raster_ms,... without a line break.

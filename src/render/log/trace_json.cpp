@@ -85,7 +85,7 @@ std::string slices_of(const FrameRecord& record, double begin_ms) {
 
 Expected<FrameTrace> FrameTrace::create(const std::filesystem::path& path,
                                         std::span<const LogSetting> settings) {
-  auto file = base::Journal::open(path);
+  auto file = io::Journal::open(path);
   if (!file) return tl::unexpected(file.error());
   std::string head =
       "[\n{\"name\":\"process_name\",\"ph\":\"M\",\"pid\":1,\"tid\":1,\"args\":{\"name\":\"tenebra\"}},\n"

@@ -24,8 +24,8 @@ public:
   Expected<void> finish();
 
 private:
-  explicit FrameTrace(base::Journal file) : file_(std::move(file)) {}
-  base::Journal file_;
+  explicit FrameTrace(io::Journal file) : file_(std::move(file)) {}
+  io::Journal file_;
 };
 
 }  // namespace tenebra::render

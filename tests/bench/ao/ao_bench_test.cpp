@@ -6,10 +6,10 @@
 #include <cstring>
 #include <map>
 
-#include "base/image.h"
 #include "bench/ao/ao_moving.h"
 #include "bench/ao/ao_peer.h"
 #include "bench/ao/ao_receivers.h"
+#include "io/image.h"
 #include "support/child_process.h"
 #include "support/temporary_folder.h"
 
@@ -68,7 +68,7 @@ TEST(AoBench, ATinyRunNamesWhatIsMissingAndEndsWithTheFigures) {
     EXPECT_NE(csv.find(row), std::string::npos) << row;
   }
   EXPECT_NE(testing::read_text(folder / "ao_figure8.svg").find("</svg>"), std::string::npos);
-  EXPECT_TRUE(base::read_png(folder / "ao_figure6_robot_head_chords.png").has_value());
+  EXPECT_TRUE(io::read_png(folder / "ao_figure6_robot_head_chords.png").has_value());
 }
 
 TEST(AoBench, PartsThatAreLeftOutAreNotNumbers) {

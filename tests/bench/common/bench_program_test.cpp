@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "base/image.h"
 #include "bench/common/bench_data.h"
 #include "bench/common/bench_frame.h"
+#include "io/image.h"
 #include "support/bart.h"
 #include "support/child_process.h"
 #include "support/temporary_folder.h"
@@ -219,7 +219,7 @@ TEST(BenchProgram, TradeWritesItsPageFromBundledScenesAlone) {
   EXPECT_NE(page.find("| exact, other solvers, bsp | "), std::string::npos);
   for (const char* name : {"trade_soft_court_60.png", "trade_ao_city_150.png"}) {
     EXPECT_NE(page.find(name), std::string::npos) << name;
-    const auto crops = base::read_png(folder / name);
+    const auto crops = io::read_png(folder / name);
     ASSERT_TRUE(crops) << name;
     EXPECT_GT(crops->width, crops->height) << name;
   }

@@ -14,7 +14,7 @@ namespace tenebra::bench {
 namespace {
 
 TEST(PictureErrors, AreThoseOfTheirValues) {
-  const base::Image8 a{2, 1, 3, {10, 20, 30, 200, 200, 200}}, b{2, 1, 3, {10, 36, 30, 183, 200, 201}};
+  const io::Image8 a{2, 1, 3, {10, 20, 30, 200, 200, 200}}, b{2, 1, 3, {10, 36, 30, 183, 200, 201}};
   const PictureError error = picture_error(a, b);
   EXPECT_DOUBLE_EQ(error.rms, std::sqrt((16.0 * 16 + 17 * 17 + 1) / 6));
   EXPECT_DOUBLE_EQ(error.missed, 0.5) << "16 is not missed, 17 is";
@@ -23,7 +23,7 @@ TEST(PictureErrors, AreThoseOfTheirValues) {
 }
 
 TEST(PictureErrors, FlickerIsWhatTheReferenceDoesNotDo) {
-  const base::Image8 dark{1, 1, 3, {10, 10, 10}}, bright{1, 1, 3, {20, 10, 10}}, other{1, 1, 3, {10, 20, 10}};
+  const io::Image8 dark{1, 1, 3, {10, 10, 10}}, bright{1, 1, 3, {20, 10, 10}}, other{1, 1, 3, {10, 20, 10}};
   ChangeSums same, apart, swapped;
   add_change(dark, bright, dark, bright, same);
   EXPECT_EQ(same.flicker(), 0);
@@ -38,9 +38,9 @@ TEST(PictureErrors, FlickerIsWhatTheReferenceDoesNotDo) {
 
 /// The mean in linear light over pictures of one sample per pixel whose cameras are moved to the 256 places
 /// of the reference: what that is to be, without any anti-aliasing of the renderer but for the places.
-base::Image8 mean_of_moved(PictureMaker& maker) {
+io::Image8 mean_of_moved(PictureMaker& maker) {
   std::vector<double> sums;
-  base::Image8 mean;
+  io::Image8 mean;
   const auto places = render::sample_pattern(256).offsets;
   for (const glm::vec2 place : places) {
     const auto picture = maker.draw({1}, glm::dvec2(place));
@@ -79,10 +79,10 @@ TEST_P(PictureReference, IsTheMeanOfPicturesOfOneSample) {
   auto maker = PictureMaker::create({*scene, 96, 64, 2});
   ASSERT_TRUE(maker) << maker.error().message;
   maker->evaluate(GetParam().frame);
-  const base::Image8 expected = mean_of_moved(*maker);
+  const io::Image8 expected = mean_of_moved(*maker);
   const auto drawn = maker->draw(reference_sampling);
   ASSERT_TRUE(drawn) << drawn.error().message;
-  const base::Image8 reference = **drawn;
+  const io::Image8 reference = **drawn;
   const PictureError error = picture_error(reference, expected);
   const auto one = maker->draw({1});
   ASSERT_TRUE(one) << one.error().message;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "base/image.h"
+#include "io/image.h"
 #include "viewer/viewer_test_scene.h"
 
 namespace tenebra::testing {
@@ -30,10 +30,10 @@ protected:
     EXPECT_TRUE(is_one_sentence(result.errors)) << result.errors;
     EXPECT_NE(result.errors.find(word), std::string::npos) << result.errors;
   }
-  base::Image8 picture(const std::string& name) const {
-    auto image = base::read_png(folder_ / name);
+  io::Image8 picture(const std::string& name) const {
+    auto image = io::read_png(folder_ / name);
     EXPECT_TRUE(image) << image.error().message;
-    return image.value_or(base::Image8{width, height, 1, std::vector<std::uint8_t>(width * height)});
+    return image.value_or(io::Image8{width, height, 1, std::vector<std::uint8_t>(width * height)});
   }
 
   const TemporaryFolder folder_;
@@ -58,7 +58,7 @@ TEST_F(AntialiasCommand, MasksOfSamplesNeedSeveral) {
 TEST_F(AntialiasCommand, MasksOfCentresAreTheSameFileForAnyNumber) {
   render_well({"-o", folder_ / "1.png", "--antialias", "1", "--mask", folder_ / "mask.png"});
   const std::string expected = read_text(folder_ / "mask.png");
-  const base::Image8 one = picture("1.png");
+  const io::Image8 one = picture("1.png");
   for (const char* samples : {"2", "4", "8", "16"}) {
     render_well({"-o", folder_ / "n.png", "--antialias", samples, "--mask", folder_ / "n_mask.png"});
     EXPECT_EQ(read_text(folder_ / "n_mask.png"), expected) << samples;
@@ -73,11 +73,11 @@ TEST_F(AntialiasCommand, WritesTheMasksOfSamplesAndTheirMeans) {
   EXPECT_EQ(picture("samples_S0.png"), picture("mask.png")) << "the centre's";
   std::vector<int> lit(width * height, 0);
   for (int k = 0; k < 8; ++k) {
-    const base::Image8 sample = picture("samples_S" + std::to_string(k) + ".png");
+    const io::Image8 sample = picture("samples_S" + std::to_string(k) + ".png");
     for (std::size_t i = 0; i < lit.size(); ++i) lit[i] += sample.pixels[i] != 0 ? 1 : 0;
   }
   EXPECT_FALSE(std::filesystem::exists(folder_ / "samples_S8.png"));
-  const base::Image8 mean = picture("mean.png");
+  const io::Image8 mean = picture("mean.png");
   const std::string pfm = read_text(folder_ / "mean.pfm");
   ASSERT_GT(pfm.size(), 4 * lit.size());
   std::vector<float> values(lit.size());

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "exr/exr_file.h"
 #include "formats/import_scene.h"
+#include "io/exr/exr_file.h"
 #include "viewer/viewer_test_scene.h"
 
 namespace tenebra::testing {
@@ -64,7 +64,7 @@ TEST(BakeCommand, MapsAreTheSameForAnyThreads) {
   }
   EXPECT_EQ(maps[0], maps[1]);
   EXPECT_EQ(scenes[0], scenes[1]);
-  const auto map = exr::read(folder / "lit1.exr");
+  const auto map = io::exr::read(folder / "lit1.exr");
   ASSERT_TRUE(map.has_value()) << map.error().message;
   EXPECT_EQ(map->width, 64);
   EXPECT_GT(*std::max_element(map->pixels.begin(), map->pixels.end()), 0.2f);

@@ -1,20 +1,20 @@
 // tenebra compare: 0 same, 1 different, 2 failed.
 #include <gtest/gtest.h>
 
-#include "base/image.h"
+#include "io/image.h"
 #include "viewer/viewer_test_scene.h"
 
 namespace tenebra::testing {
 namespace {
 
-base::Image8 flat(int width, int height, int channels, std::uint8_t value) {
+io::Image8 flat(int width, int height, int channels, std::uint8_t value) {
   return {width, height, channels,
           std::vector<std::uint8_t>(static_cast<std::size_t>(width) * height * channels, value)};
 }
 
 TEST(CompareCommand, FindsAPictureEqualToItself) {
   const TemporaryFolder folder;
-  ASSERT_TRUE(base::write_png(folder / "a.png", flat(9, 5, 3, 77)));
+  ASSERT_TRUE(io::write_png(folder / "a.png", flat(9, 5, 3, 77)));
   const auto result = tenebra({"compare", folder / "a.png", folder / "a.png"});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(result.output,
@@ -24,11 +24,11 @@ TEST(CompareCommand, FindsAPictureEqualToItself) {
 
 TEST(CompareCommand, MarksDifferencesBeyondTheThreshold) {
   const TemporaryFolder folder;
-  const base::Image8 a = flat(4, 2, 3, 120);
-  base::Image8 b = a;
+  const io::Image8 a = flat(4, 2, 3, 120);
+  io::Image8 b = a;
   b.pixels[0] = 123;          // pixel 0: 3
   b.pixels[7 * 3 + 2] = 110;  // pixel 7: 10
-  ASSERT_TRUE(base::write_png(folder / "a.png", a) && base::write_png(folder / "b.png", b));
+  ASSERT_TRUE(io::write_png(folder / "a.png", a) && io::write_png(folder / "b.png", b));
   const auto run = [&](const char* threshold) {
     return tenebra(
         {"compare", folder / "a.png", folder / "b.png", "--threshold", threshold, "-o", folder / "d.png"});
@@ -39,7 +39,7 @@ TEST(CompareCommand, MarksDifferencesBeyondTheThreshold) {
   EXPECT_EQ(run("9").exit_code, 1);
   EXPECT_EQ(run("10").exit_code, 0);
   EXPECT_EQ(run("3").exit_code, 1);
-  const auto difference = base::read_png(folder / "d.png");
+  const auto difference = io::read_png(folder / "d.png");
   ASSERT_TRUE(difference) << difference.error().message;
   for (std::size_t i = 0; i < 8; ++i) {
     const std::vector<std::uint8_t> pixel(difference->pixels.begin() + i * 3,
@@ -52,10 +52,10 @@ TEST(CompareCommand, MarksDifferencesBeyondTheThreshold) {
 
 TEST(CompareCommand, TakesGreyForEqualColoursAndNoAlphaForOpaque) {
   const TemporaryFolder folder;
-  ASSERT_TRUE(base::write_png(folder / "grey.png", flat(3, 3, 1, 255)) &&
-              base::write_png(folder / "rgb.png", flat(3, 3, 3, 255)) &&
-              base::write_png(folder / "rgba.png", flat(3, 3, 4, 255)) &&
-              base::write_png(folder / "clear.png", flat(3, 3, 4, 254)));
+  ASSERT_TRUE(io::write_png(folder / "grey.png", flat(3, 3, 1, 255)) &&
+              io::write_png(folder / "rgb.png", flat(3, 3, 3, 255)) &&
+              io::write_png(folder / "rgba.png", flat(3, 3, 4, 255)) &&
+              io::write_png(folder / "clear.png", flat(3, 3, 4, 254)));
   EXPECT_EQ(tenebra({"compare", folder / "grey.png", folder / "rgb.png"}).exit_code, 0);
   EXPECT_EQ(tenebra({"compare", folder / "rgb.png", folder / "rgba.png"}).exit_code, 0);
   EXPECT_EQ(tenebra({"compare", folder / "rgb.png", folder / "clear.png"}).exit_code, 1);
@@ -63,8 +63,8 @@ TEST(CompareCommand, TakesGreyForEqualColoursAndNoAlphaForOpaque) {
 
 TEST(CompareCommand, TakesOtherSizesForDifferent) {
   const TemporaryFolder folder;
-  ASSERT_TRUE(base::write_png(folder / "a.png", flat(3, 2, 1, 0)) &&
-              base::write_png(folder / "b.png", flat(2, 3, 1, 0)));
+  ASSERT_TRUE(io::write_png(folder / "a.png", flat(3, 2, 1, 0)) &&
+              io::write_png(folder / "b.png", flat(2, 3, 1, 0)));
   const auto result = tenebra({"compare", folder / "a.png", folder / "b.png", "-o", folder / "d.png"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_NE(result.output.find("3x2 and 2x3"), std::string::npos) << result.output;
@@ -73,7 +73,7 @@ TEST(CompareCommand, TakesOtherSizesForDifferent) {
 
 TEST(CompareCommand, FailsOnBrokenPicturesAndUnwritableResults) {
   const TemporaryFolder folder;
-  ASSERT_TRUE(base::write_png(folder / "a.png", flat(3, 2, 1, 0)));
+  ASSERT_TRUE(io::write_png(folder / "a.png", flat(3, 2, 1, 0)));
   const std::string whole = read_text(folder / "a.png");
   write_text(folder / "broken.png", whole.substr(0, whole.size() / 2));
   const std::vector<std::vector<std::string>> uses{

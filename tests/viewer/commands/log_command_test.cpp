@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/image.h"
+#include "io/image.h"
 #include "log/log_merge.h"
 #include "log/log_summary.h"
 #include "log/page_text.h"

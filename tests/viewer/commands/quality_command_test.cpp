@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "base/image.h"
+#include "io/image.h"
 #include "options/config_file.h"
 #include "options/method_arguments.h"
 #include "viewer/viewer_test_scene.h"
@@ -172,23 +172,23 @@ TEST(QualityOption, IsDocumentedWithTheErrorsThatWereMeasured) {
 }
 
 /// A picture with soft shadows.
-base::Image8 picture(const TemporaryFolder& folder, const std::string& scene, std::vector<std::string> more) {
+io::Image8 picture(const TemporaryFolder& folder, const std::string& scene, std::vector<std::string> more) {
   std::vector<std::string> arguments{"render",        scene,  "--time",       "5",   "--size",  "80x60",
                                      "--shadows",     "soft", "--light-size", "1.5", "--quiet", "-o",
                                      folder / "p.png"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   const auto result = tenebra(arguments);
   EXPECT_EQ(result.exit_code, 0) << result.errors;
-  return base::read_png(folder / "p.png").value_or(base::Image8{});
+  return io::read_png(folder / "p.png").value_or(io::Image8{});
 }
 
 TEST(QualityOption, ExactIsTheDefaultExactPictureToTheBit) {
   const TemporaryFolder folder;
   const std::string scene = write_moving_scene(folder);
-  const base::Image8 standard = picture(folder, scene, {});
+  const io::Image8 standard = picture(folder, scene, {});
   EXPECT_EQ(picture(folder, scene, {"--quality", "exact"}), standard);
   EXPECT_EQ(picture(folder, scene, {"--quality", "balanced"}), standard);
-  const base::Image8 fast = picture(folder, scene, {"--quality", "fast"});
+  const io::Image8 fast = picture(folder, scene, {"--quality", "fast"});
   EXPECT_EQ(fast, standard) << "few occluders: nothing is quicker than exact";
   EXPECT_EQ(picture(folder, scene, {"--soft-error", "4"}), fast);
   EXPECT_NE(picture(folder, scene, {"--soft-points", "8"}), standard);

@@ -11,7 +11,7 @@
 #include <sstream>
 #include <thread>
 
-#include "base/image.h"
+#include "io/image.h"
 #include "render/log/frame_log.h"
 #include "viewer/viewer_test_scene.h"
 
@@ -21,13 +21,13 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-base::Image8 picture(const fs::path& path) {
-  auto image = base::read_png(path);
+io::Image8 picture(const fs::path& path) {
+  auto image = io::read_png(path);
   EXPECT_TRUE(image) << image.error().message;
-  return image.value_or(base::Image8{});
+  return image.value_or(io::Image8{});
 }
 
-std::size_t count_of(const base::Image8& image, std::uint8_t value) {
+std::size_t count_of(const io::Image8& image, std::uint8_t value) {
   return static_cast<std::size_t>(std::count(image.pixels.begin(), image.pixels.end(), value));
 }
 
@@ -64,7 +64,7 @@ TEST(RenderCommand, DrawsOneFrameToItsDefaultPlace) {
     if (::chdir(folder.path().c_str()) != 0) ::_exit(99);
   });
   ASSERT_EQ(result.exit_code, 0) << result.errors;
-  const base::Image8 image = picture(folder / "out/0000.png");
+  const io::Image8 image = picture(folder / "out/0000.png");
   EXPECT_EQ(image.width, 800);
   EXPECT_EQ(image.height, 600);
   EXPECT_EQ(image.channels, 3);
@@ -78,7 +78,7 @@ TEST(RenderCommand, WritesMasksOfZeroAndFullOnly) {
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(result.output + result.errors, "");
   EXPECT_EQ(results_in(folder), std::vector<std::string>{"mask.png"});
-  const base::Image8 mask = picture(folder / "mask.png");
+  const io::Image8 mask = picture(folder / "mask.png");
   EXPECT_EQ(mask.channels, 1);
   EXPECT_GT(count_of(mask, 0), 500u) << "sky and shadow";
   EXPECT_GT(count_of(mask, 255), 500u) << "lit floor";
@@ -96,8 +96,8 @@ TEST(RenderCommand, DarkensWhatTheMaskSaysIsShadowed) {
   auto uncast = common;
   uncast.insert(uncast.end(), {folder / "uncast.png", "--no-cast", "blocker"});
   for (const auto& arguments : {with, without, uncast}) ASSERT_EQ(tenebra(arguments).exit_code, 0);
-  const base::Image8 shadowed = picture(folder / "with.png");
-  const base::Image8 plain = picture(folder / "without.png");
+  const io::Image8 shadowed = picture(folder / "with.png");
+  const io::Image8 plain = picture(folder / "without.png");
   EXPECT_EQ(picture(folder / "uncast.png"), plain) << "with the only blocker left out there is no shadow";
   std::size_t darker = 0;
   for (std::size_t i = 0; i < plain.pixels.size(); ++i) {
@@ -121,7 +121,7 @@ TEST(RenderCommand, TransfersAndEnvironmentsArePutIntoThePicture) {
     return picture(folder / "a.png");
   };
   const std::vector<std::string> untoned{"--tone", "none"};
-  const base::Image8 srgb = drawn(untoned), display = drawn({"--transfer", "display"});
+  const io::Image8 srgb = drawn(untoned), display = drawn({"--transfer", "display"});
   int brighter = 0;
   for (std::size_t i = 0; i < srgb.pixels.size(); ++i) {
     const double x = display.pixels[i] / 255.0;
@@ -132,15 +132,15 @@ TEST(RenderCommand, TransfersAndEnvironmentsArePutIntoThePicture) {
   }
   EXPECT_GT(brighter, 100);
   const std::string picture_of_all = folder / "grey.hdr";
-  const base::Image8 black = drawn({"--environment", picture_of_all, "--exposure", "1e-6"});
+  const io::Image8 black = drawn({"--environment", picture_of_all, "--exposure", "1e-6"});
   EXPECT_EQ(count_of(black, 0), black.pixels.size());
-  const base::Image8 grey = drawn({"--environment", picture_of_all, "--tone", "none"});
+  const io::Image8 grey = drawn({"--environment", picture_of_all, "--tone", "none"});
   EXPECT_GT(count_of(grey, 137), count_of(srgb, 137) + 300);
   // Toned unless asked not to: Khronos' curve takes 0.04 off a quarter, and level 126 shows what is left.
-  const base::Image8 toned = drawn({"--environment", picture_of_all});
+  const io::Image8 toned = drawn({"--environment", picture_of_all});
   EXPECT_GT(count_of(toned, 126), count_of(srgb, 126) + 300);
   EXPECT_EQ(toned, drawn({"--environment", picture_of_all, "--tone", "neutral"}));
-  const base::Image8 grey_display = drawn({"--environment", picture_of_all, "--transfer", "display"});
+  const io::Image8 grey_display = drawn({"--environment", picture_of_all, "--transfer", "display"});
   EXPECT_GT(count_of(grey_display, 64), count_of(display, 64) + 300);
 }
 

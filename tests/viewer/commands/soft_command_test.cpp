@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "base/image.h"
+#include "io/image.h"
 #include "viewer/viewer_test_scene.h"
 
 namespace tenebra::testing {
@@ -57,7 +57,7 @@ TEST(SoftCommand, WritesTheVisibleFractionInEightAndThirtyTwoBits) {
                       folder / "mask.png", "--mask", folder / "mask.pfm", "--log", folder / "log.csv"}));
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(result.errors, "");
-  const auto mask = base::read_png(folder / "mask.png");
+  const auto mask = io::read_png(folder / "mask.png");
   ASSERT_TRUE(mask) << mask.error().message;
   const std::vector<float> fraction = read_pfm(folder / "mask.pfm");
   int between = 0;
@@ -95,12 +95,12 @@ TEST(SoftCommand, EverySettingOfTheSolversDrawsTheSamePicture) {
                                                        {"--soft-precision", "reference"},
                                                        {"--threads", "1"},
                                                        {"--simd", "scalar"}};
-  base::Image8 expected;
+  io::Image8 expected;
   for (std::vector<std::string> more : settings) {
     more.insert(more.end(), {"--shadows", "soft", "--light-size", "20%", "--quiet", "-o", folder / "a.png"});
     const auto result = tenebra(render(scene, more));
     ASSERT_EQ(result.exit_code, 0) << result.errors;
-    const auto image = base::read_png(folder / "a.png");
+    const auto image = io::read_png(folder / "a.png");
     ASSERT_TRUE(image) << image.error().message;
     if (expected.pixels.empty()) expected = *image;
     for (std::size_t i = 0; i < expected.pixels.size(); ++i) {
@@ -149,16 +149,16 @@ TEST(Config, GivesOptionsThatTheCommandLineOverrules) {
     const auto result = tenebra(arguments);
     EXPECT_EQ(result.exit_code, 0) << result.errors;
     EXPECT_EQ(result.output + result.errors, "");
-    return base::read_png(folder / "a.png").value_or(base::Image8{});
+    return io::read_png(folder / "a.png").value_or(io::Image8{});
   };
-  const base::Image8 from_file = run({});
+  const io::Image8 from_file = run({});
   EXPECT_EQ(from_file.width, 40);
   EXPECT_EQ(run({"--size", "20x10"}).width, 20);
   ASSERT_EQ(tenebra({"render", scene, "--size", "40x30", "--eye", "0,5,1", "--look-at", "0,0,0", "--no-cast",
                      "floor", "--light-size", "30%", "--shadows", "soft", "-o", folder / "b.png"})
                 .exit_code,
             0);
-  EXPECT_EQ(from_file, *base::read_png(folder / "b.png"));
+  EXPECT_EQ(from_file, *io::read_png(folder / "b.png"));
 }
 
 TEST(Config, NamesFileAndWordOfWhatIsWrong) {
@@ -274,7 +274,7 @@ TEST(SoftCommand, WritesAMapOfTheErrors) {
                              folder / "error.pfm", "--error-map", folder / "error.png"}));
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   for (const float error : read_pfm(folder / "error.pfm")) ASSERT_EQ(error, 0) << "exact";
-  const auto picture = base::read_png(folder / "error.png");
+  const auto picture = io::read_png(folder / "error.png");
   ASSERT_TRUE(picture) << picture.error().message;
   EXPECT_EQ(picture->width, 80);
   const auto hard = tenebra(render(scene, {"-o", "none", "--error-map", folder / "hard.pfm"}));

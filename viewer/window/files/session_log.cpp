@@ -19,7 +19,7 @@ std::string SessionLog::key_of(const ViewState& state) {
 
 Expected<SessionLog> SessionLog::start(const std::string& path, const ViewState& state,
                                        const Picture& picture, const RasterNames& raster) {
-  const base::Image8& image = picture.a.result.image;
+  const io::Image8& image = picture.a.result.image;
   const MethodOptions& method = state.slots[static_cast<std::size_t>(picture.slot)];
   const bool follows = state.camera_mode == CameraMode::scene;
   std::vector<render::LogSetting> settings{

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/fail.h"
-#include "base/output_file.h"
+#include "io/output_file.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -91,7 +91,7 @@ Expected<void> write_settings(const fs::path& file, const UserSettings& settings
                   {"research", settings.research},
                   {"recent", settings.recent},
                   {"folder", settings.folder}};
-  return base::write_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  return io::write_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 SettingsKeeper::SettingsKeeper(const std::string& file) {

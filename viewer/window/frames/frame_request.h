@@ -58,7 +58,7 @@ struct Drawn {
 /// An image of the size of the picture that explains it.
 struct OverlayImage {
   Overlay kind = Overlay::none;
-  base::Image8 image;                        ///< RGB
+  io::Image8 image;                          ///< RGB
   float highest = 0;                         ///< nodes: what the brightest colour stands for
   float peak = 0;                            ///< nodes: the most of any pixel
   double mean = 0;                           ///< nodes: of the pixels with a triangle

@@ -30,11 +30,11 @@ constexpr std::array<ClassLook, 8> class_looks{{{"background", {18, 18, 22}},
                                                 {"penumbra by silhouettes", {164, 108, 190}},
                                                 {"by places on the light", {214, 158, 88}}}};
 
-void put(base::Image8& image, std::size_t pixel, glm::u8vec3 color) {
+void put(io::Image8& image, std::size_t pixel, glm::u8vec3 color) {
   for (int c = 0; c < 3; ++c) image.pixels[pixel * 3 + static_cast<std::size_t>(c)] = color[c];
 }
 
-base::Image8 empty_like(const base::Image8& picture) {
+io::Image8 empty_like(const io::Image8& picture) {
   const auto pixels = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
   return {picture.width, picture.height, 3, std::vector<std::uint8_t>(pixels * 3)};
 }

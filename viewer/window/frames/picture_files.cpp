@@ -16,7 +16,7 @@ Expected<void> PictureFiles::add(std::filesystem::path file, std::shared_ptr<con
       [&] {
         if (!queue_) queue_.emplace(most_files_waiting);
         return queue_->add([to = std::move(file), of = std::move(picture)] {
-          return base::write_png(to, of->a.result.image);
+          return io::write_png(to, of->a.result.image);
         });
       },
       [] {});

@@ -50,7 +50,7 @@ std::optional<Anchor> anchor_of(const Ui& ui, const Stage& stage, const WorldLig
   const glm::dvec3 world =
       type == LightType::directional ? glm::dvec3(ui.state.centre) : glm::dvec3(light.position);
   const glm::dvec3 pixel = pixel_of(ui.picture->view, world);
-  const base::Image8& image = ui.picture->a.result.image;
+  const io::Image8& image = ui.picture->a.result.image;
   const bool inside =
       pixel.z > 0 && pixel.x > 0 && pixel.y > 0 && pixel.x < image.width && pixel.y < image.height;
   if (type == LightType::directional && !inside)

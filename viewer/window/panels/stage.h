@@ -72,7 +72,7 @@ public:
     return {(at.x - area.low.x) / area.size.x, (at.y - area.low.y) / area.size.y};
   }
   glm::vec2 pixel_at(ImVec2 at) const {
-    const base::Image8& image = ui_.picture->a.result.image;
+    const io::Image8& image = ui_.picture->a.result.image;
     return place_at(at) * glm::vec2(image.width, image.height);
   }
   /// The place of the middle of the pixel under the pointer: pointers are at the upper left corners of
@@ -80,7 +80,7 @@ public:
   glm::dvec2 place_under(ImVec2 pointer) const { return place_at(pointer + ImVec2(0.5f, 0.5f)); }
   ImVec2 at_pixel(glm::dvec2 pixel, int place) const {
     const Area& area = places_[static_cast<std::size_t>(place)];
-    const base::Image8& image = ui_.picture->a.result.image;
+    const io::Image8& image = ui_.picture->a.result.image;
     return {area.low.x + static_cast<float>(pixel.x / image.width) * area.size.x,
             area.low.y + static_cast<float>(pixel.y / image.height) * area.size.y};
   }

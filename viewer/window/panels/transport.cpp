@@ -98,7 +98,7 @@ void draw_scrubber(Ui& ui) {
 void draw_numbers(Ui& ui) {
   if (!ui.picture) return;
   const render::FrameRecord& record = ui.picture->a.record;
-  const base::Image8& image = ui.picture->a.result.image;
+  const io::Image8& image = ui.picture->a.result.image;
   const double ms = record.timings.total_ms + (ui.picture->b ? ui.picture->b->record.timings.total_ms : 0);
   const std::string text = fmt::format("{:.1f} ms   {}x{}", ms, image.width, image.height);
   const float width = ImGui::CalcTextSize(text.c_str()).x;

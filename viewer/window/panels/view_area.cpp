@@ -204,7 +204,7 @@ void leave_scene_camera(Ui& ui, CameraMode mode) {
   ViewState& state = ui.state;
   if (!ui.picture) return;  // nothing to start from yet
   if (state.camera_mode == CameraMode::scene) {
-    const base::Image8& image = ui.picture->a.result.image;
+    const io::Image8& image = ui.picture->a.result.image;
     const ViewRays& view = ui.picture->view;
     const float distance = std::max(glm::distance(state.centre, view.eye), 1e-3f * state.diagonal_m);
     state.free = free_camera(view, image.width, image.height, distance);
