@@ -15,10 +15,10 @@ MAY_INCLUDE = {
     "io": {"base"},
     "parallel": {"base"},
     "simd": {"base"},
-    "scene": {"base", "io", "math"},
+    "scene": {"base", "math"},
     "formats": {"base", "io", "math", "scene"},
     "texture": {"base", "math", "simd", "scene"},
-    "cutout": {"base", "math", "parallel", "scene", "texture"},
+    "stage": {"base", "io", "math", "parallel", "scene", "texture"},
     "points": {"base", "math", "simd", "parallel", "scene"},
     "shadow": {"base", "math", "simd", "parallel", "scene", "points"},
     "soft": {"base", "math", "simd", "parallel", "scene", "points"},  # and hard shadows by their public header
@@ -32,19 +32,20 @@ MAY_INCLUDE = {
     "gl": {"base"},
     "visibility": {"base", "math", "simd", "parallel", "scene"},
     "raster": {"base", "math", "scene", "gl", "visibility"},
-    "render": {"base", "io", "math", "simd", "parallel", "scene", "formats", "points", "shadow", "soft", "ao", "tint", "gl", "raster", "visibility", "texture", "cutout", "shade"},
+    "render": {"base", "io", "math", "simd", "parallel", "scene", "formats", "points", "shadow", "soft", "ao", "tint", "gl", "raster", "visibility", "texture", "shade"},
     "bake": {"base", "parallel", "scene", "points", "soft", "shade", "render"},
 }
 
 # Rooms of a folder, lowest first: a room includes itself and rooms before it. "" is the folder's own files.
 ROOMS = {
     "io": ["", "exr"],
+    "stage": ["cutout", "edits", ""],
     "formats": ["", "gltf_check", "images", "obj", "aff", "gltf", "glb"],
     "shadow": ["decision", "rays", "cone_tree", "tiles", ""],
     "soft": ["memory", "light", "polygon", "groups", "shafts", "occluders", "clip", "silhouette", "bsp", "solve", "sample", ""],
     "ao": ["objects", "cast", "cache", "field", "surface", "shade", "adaptive", ""],
 }
-APART = {("tiles", "cone_tree"), ("silhouette", "clip"), ("bsp", "clip"), ("bsp", "silhouette"),
+APART = {("edits", "cutout"), ("tiles", "cone_tree"), ("silhouette", "clip"), ("bsp", "clip"), ("bsp", "silhouette"),
          ("aff", "obj"), ("gltf", "obj"), ("gltf", "aff"), ("glb", "obj"), ("glb", "aff"), ("glb", "gltf")}  # may not see each other
 
 # What may be named where: (pattern, what it is, folders, rooms or files that may).

@@ -4,6 +4,8 @@
 #include "bench/common/bench_embree.h"
 #include "formats/import_scene.h"
 #include "parallel/parallel.h"
+#include "stage/additions.h"
+#include "stage/left_out.h"
 
 namespace tenebra::bench {
 namespace {
@@ -29,11 +31,11 @@ Expected<Scene> load_scene(const std::filesystem::path& file, const std::vector<
   auto scene = formats::import_scene(file);
   if (!scene) return scene;
   std::string unmatched;
-  if (!leave_out_casters(*scene, no_cast, unmatched)) {
+  if (!stage::leave_out_casters(*scene, no_cast, unmatched)) {
     return base::fail("{}: found no mesh, material or FILE:LINE {}, which is to cast no shadow",
                       file.string(), unmatched);
   }
-  add_missing_camera_and_light(*scene);
+  stage::add_missing_camera_and_light(*scene);
   return scene;
 }
 

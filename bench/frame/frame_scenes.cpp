@@ -9,9 +9,9 @@
 #include "bench/common/bench_scenes.h"
 #include "bench/frame/frame_contest.h"
 #include "bench/frame/frame_session.h"
-#include "cutout/cutout.h"
 #include "parallel/parallel.h"
-#include "scene/looks.h"
+#include "stage/cutout/cutout.h"
+#include "stage/looks.h"
 
 namespace tenebra::bench {
 namespace {
@@ -26,8 +26,8 @@ struct Size {
 /// it.
 void prepare(Scene& scene) {
   make_opaque(scene);
-  cutout::cut_out_masks(scene);
-  scene::leave_out_blank_emission(scene);
+  stage::cut_out_masks(scene);
+  stage::leave_out_blank_emission(scene);
 }
 
 Rows head() {

@@ -11,8 +11,8 @@
 #include "bench/common/bench_scenes.h"
 #include "bench/common/scene_renderer.h"
 #include "bench/paper/paper_session.h"
-#include "cutout/cutout.h"
-#include "scene/looks.h"
+#include "stage/cutout/cutout.h"
+#include "stage/looks.h"
 
 namespace tenebra::bench {
 namespace {
@@ -39,8 +39,8 @@ Expected<ClipTimes> draw_clip(const PaperSession& session, const BartClip& clip,
                               const std::filesystem::path& file) {
   auto scene = load_scene(file, bench_scene(clip.scene).no_cast);
   if (!scene) return tl::unexpected(scene.error());
-  cutout::cut_out_masks(*scene);
-  scene::leave_out_blank_emission(*scene);
+  stage::cut_out_masks(*scene);
+  stage::leave_out_blank_emission(*scene);
   const bool tiny = session.effort == Effort::tiny;
   auto renderer = SceneRenderer::create({*scene, tiny ? 64 : 800, tiny ? 48 : 600, session.options.threads});
   if (!renderer) return tl::unexpected(renderer.error());

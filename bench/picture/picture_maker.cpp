@@ -1,8 +1,8 @@
 #include "bench/picture/picture_maker.h"
 
 #include "bench/common/bench_frame.h"
-#include "cutout/cutout.h"
-#include "scene/looks.h"
+#include "stage/cutout/cutout.h"
+#include "stage/looks.h"
 
 namespace tenebra::bench {
 
@@ -10,8 +10,8 @@ Expected<Scene> load_picture_scene(const std::filesystem::path& file,
                                    const std::vector<std::string>& no_cast) {
   auto scene = load_scene(file, no_cast);
   if (!scene) return scene;
-  cutout::cut_out_masks(*scene);
-  scene::leave_out_blank_emission(*scene);
+  stage::cut_out_masks(*scene);
+  stage::leave_out_blank_emission(*scene);
   return scene;
 }
 

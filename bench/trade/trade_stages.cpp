@@ -194,7 +194,7 @@ Scene bare_scene() {
   scene.materials.emplace_back();
   scene.meshes.push_back(mesh_of(make_knot(256, 32)));
   scene.nodes.emplace_back().mesh = 0;
-  add_missing_camera_and_light(scene);
+  stage::add_missing_camera_and_light(scene);
   return scene;
 }
 

@@ -75,7 +75,7 @@ struct Light {
   float outer_cone_rad = 0.785398163f;  ///< no light beyond
   glm::vec2 size_m{1.0f};               ///< area: width and height; for a disc its diameter, twice
   float diameter_deg = 0;               ///< directional: as seen from the scene, 0 to 90; 0: hard shadows
-  std::vector<int> left_out_nodes;      ///< their meshes cast no shadow from this light (leave_out_covers)
+  std::vector<int> left_out_nodes;      ///< their meshes cast no shadow from this light
 };
 
 /// How a camera projects.
@@ -132,21 +132,5 @@ struct Scene {
   std::vector<UnusedContent> unused;    ///< each has a warning too
   std::vector<std::string> warnings;    ///< what was skipped, guessed or added at import, one sentence each
 };
-
-/// Adds what a picture needs if the file lacks it: a camera that sees everything, and a sun with the light of
-/// a soft sky. Says so in scene.warnings. add_missing_parts (additions.h) also adds a floor.
-void add_missing_camera_and_light(Scene& scene);
-
-/// Keeps meshes from casting shadows, by name of mesh, name of material or FILE:LINE (Mesh::source). For each
-/// name scene.warnings gets a sentence with the number of triangles, instances counted. Returns false if a
-/// name matches nothing; `unmatched` is then the first such name.
-bool leave_out_casters(Scene& scene, const std::vector<std::string>& names, std::string& unmatched);
-
-/// Leaves skies out of the casters of the lights that they hide: a sky is a flat or open mesh that has nearly
-/// all other casters (99 % of their vertices) in front of it and alone shadows nearly all of these from a
-/// light, at the start of the first clip. Adds to Light::left_out_nodes, and a sentence for each to
-/// scene.warnings; any other mesh that hides a light from nearly all is named there too.
-/// Lights must not be shared by nodes.
-void leave_out_covers(Scene& scene);
 
 }  // namespace tenebra

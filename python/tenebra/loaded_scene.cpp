@@ -18,13 +18,13 @@ Expected<std::unique_ptr<LoadedScene>> LoadedScene::load(const std::string& path
   if (!plan) return tl::unexpected(plan.error());
   loaded->plan_ = std::move(*plan);
   viewer::ScenePlan& ready = loaded->plan_;
-  ready.scene.lights = viewer::lights_of(ready.scene, loaded->options_.edits);
+  ready.scene.lights = stage::lights_of(ready.scene, loaded->options_.edits);
   auto raster = render::FrameRaster::create({.kind = render::RasterKind::cpu});
   if (!raster) return tl::unexpected(raster.error());
   loaded->renderer_ = render::Renderer::create(std::move(*raster), ready.scene);
   if (ready.environment) loaded->renderer_->set_environment(*ready.environment);
   if (!loaded->options_.edits.materials.empty())
-    loaded->renderer_->set_materials(viewer::materials_of(ready.scene, loaded->options_.edits));
+    loaded->renderer_->set_materials(stage::materials_of(ready.scene, loaded->options_.edits));
   return loaded;
 }
 
@@ -53,8 +53,8 @@ Expected<render::RenderSettings> LoadedScene::settings_of(const Wish& wish) {
   }
   render::RenderSettings settings =
       viewer::method_settings(wish.method, wish.scene.size.value_or(plan_.size), plan_.display);
-  settings.area_lights.own_size_m = viewer::edited_sizes_m(options_.edits.lights);
-  settings.area_lights.own_sun_deg = viewer::edited_suns_deg(options_.edits.lights);
+  settings.area_lights.own_size_m = stage::edited_sizes_m(options_.edits.lights);
+  settings.area_lights.own_sun_deg = stage::edited_suns_deg(options_.edits.lights);
   settings.aovs = wish.aovs;
   return settings;
 }
@@ -116,7 +116,7 @@ Expected<double> LoadedScene::time_of(int frame) const {
 
 void LoadedScene::evaluate(double time_s, FrameGeometry& geometry) const {
   evaluate_frame(plan_.scene, plan_.clip, time_s, geometry);
-  viewer::apply_node_edits(plan_.scene, options_.edits, geometry);
+  stage::apply_node_edits(plan_.scene, options_.edits, geometry);
 }
 
 FrameGeometry LoadedScene::geometry(double time_s) const {

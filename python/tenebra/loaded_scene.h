@@ -49,7 +49,7 @@ public:
   Expected<double> time_of(int frame) const;
   FrameGeometry geometry(double time_s) const;
   std::vector<WorldLight> lights(double time_s) const {
-    return viewer::placed_lights(plan_.scene, options_.edits, plan_.clip, time_s);
+    return stage::placed_lights(plan_.scene, options_.edits, plan_.clip, time_s);
   }
   int frames() const { return viewer::frames_of_clip(plan_.scene, plan_.clip, options_.fps); }
   const viewer::ScenePlan& plan() const { return plan_; }

@@ -8,6 +8,7 @@
 
 #include <tenebra/frame_geometry.h>
 #include "formats/aff_bart.h"
+#include "stage/left_out.h"
 
 namespace tenebra::testing {
 namespace {
@@ -125,7 +126,7 @@ TEST(AffBart, FillsTheDocumentedBoxOverAllFrames) {
 TEST(AffBart, SkyCanBeLeftOut) {
   Scene robots = scene_of(Bart::robots);
   std::string unmatched;
-  ASSERT_TRUE(leave_out_casters(robots, {"city2.aff:69"}, unmatched)) << unmatched;
+  ASSERT_TRUE(stage::leave_out_casters(robots, {"city2.aff:69"}, unmatched)) << unmatched;
   EXPECT_NE(robots.warnings.back().find("2 triangles"), std::string::npos) << robots.warnings.back();
   FrameGeometry frame;
   evaluate_frame(robots, 0, 0.0, frame);
@@ -133,7 +134,7 @@ TEST(AffBart, SkyCanBeLeftOut) {
   const auto see_through = std::count(frame.see_through.begin(), frame.see_through.end(), 1);
   EXPECT_EQ(opaque + see_through, 71'706);
   EXPECT_EQ(see_through, 1'514);  // and the sky's two
-  EXPECT_FALSE(leave_out_casters(robots, {"city2.aff:70"}, unmatched));
+  EXPECT_FALSE(stage::leave_out_casters(robots, {"city2.aff:70"}, unmatched));
   EXPECT_EQ(unmatched, "city2.aff:70");
 }
 

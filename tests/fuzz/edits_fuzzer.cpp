@@ -3,13 +3,13 @@
 #include <sstream>
 
 #include "fuzz/input_file.h"
-#include "options/scene_edits.h"
+#include "options/edit_texts.h"
 
 namespace {
 
 using namespace tenebra::viewer;
 
-tenebra::Expected<void> parse(const std::string& option, const std::string& value, SceneEdits& edits) {
+tenebra::Expected<void> parse(const std::string& option, const std::string& value, stage::SceneEdits& edits) {
   if (option == "--set-light") return parse_light_edit(value, edits.lights);
   if (option == "--add-light") return parse_added_light(value, edits);
   if (option == "--set-material") return parse_material_edit(value, edits);
@@ -21,11 +21,11 @@ tenebra::Expected<void> parse(const std::string& option, const std::string& valu
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   constexpr const char* options[] = {"--set-light", "--add-light", "--set-material", "--set-node"};
   std::istringstream lines(std::string(reinterpret_cast<const char*>(bytes), size));
-  SceneEdits edits;
+  stage::SceneEdits edits;
   for (std::string line; std::getline(lines, line);)
     if (!line.empty()) (void)parse(options[static_cast<unsigned char>(line[0]) % 4], line.substr(1), edits);
   if (edits.lights.size() > 1000) return 0;
-  SceneEdits again;
+  stage::SceneEdits again;
   for (const EditOption& edit : edit_options(edits))
     if (!parse(edit.name, edit.value, again)) {
       std::fprintf(stderr, "written, but not read: %s %s\n", edit.name, edit.value.c_str());

@@ -8,6 +8,7 @@
 
 #include "formats/import_scene.h"
 #include "shadow/mask_case.h"
+#include "stage/left_out.h"
 #include "support/bart.h"
 
 namespace tenebra::testing {
@@ -46,7 +47,7 @@ std::vector<MaskCase> frame_cases(const SceneFrame& frame, int width, int height
     return cases;
   }
   std::string unmatched;
-  if (*frame.no_cast != 0 && !leave_out_casters(*scene, {frame.no_cast}, unmatched)) {
+  if (*frame.no_cast != 0 && !stage::leave_out_casters(*scene, {frame.no_cast}, unmatched)) {
     ADD_FAILURE() << unmatched << " matches nothing in " << frame.scene;
   }
   const double time_s = frame_time_s(scene->clips.at(0), frame.frame, 30.0);

@@ -35,7 +35,7 @@ inline LoadedFrame load_frame(const SceneFrame& frame, int width, int height) {
   Expected<Scene> scene = formats::import_scene(path_of(frame));
   if (!scene) throw std::runtime_error(scene.error().message);
   std::string unmatched;
-  if (*frame.no_cast != 0 && !leave_out_casters(*scene, {frame.no_cast}, unmatched))
+  if (*frame.no_cast != 0 && !stage::leave_out_casters(*scene, {frame.no_cast}, unmatched))
     throw std::runtime_error(unmatched + " matches nothing in " + frame.scene);
   LoadedFrame out;
   out.time_s = frame_time_s(scene->clips.at(0), frame.frame, 30.0);

@@ -1,18 +1,17 @@
-// The user's changes to lights: as text, their effect, and the same on the command line.
+// The user's changes to lights: as text, and their effect on the command line.
 #include <gtest/gtest.h>
 
 #include "io/image.h"
-#include "options/light_edits.h"
+#include "options/edit_texts.h"
 #include "viewer_test_scene.h"
 
 namespace tenebra::viewer {
 namespace {
 
-using glm::vec3;
 using testing::TemporaryFolder;
 
 TEST(LightEdits, ReadBackWhatTheyWrite) {
-  LightEdits edits(4);
+  stage::LightEdits edits(4);
   edits[3] = {.on = false,
               .intensity = 0.3f,
               .move = {1, -2.5f, 1e-7f},
@@ -20,7 +19,7 @@ TEST(LightEdits, ReadBackWhatTheyWrite) {
               .diameter_deg = 0.53f};
   const auto texts = light_edit_texts(edits);
   ASSERT_EQ(texts.size(), 1u) << "lights as the scene has them need no words";
-  LightEdits read;
+  stage::LightEdits read;
   ASSERT_TRUE(parse_light_edit(texts[0], read));
   EXPECT_EQ(read, edits);
 }
@@ -29,32 +28,13 @@ TEST(LightEdits, RefuseInASentence) {
   for (const char* text : {"", "x", "-1 on=0", "0 on=2", "0 intensity=-1", "0 intensity=nan",
                            "0 intensity=1e-60", "0 move=1,2", "0 glow=1", "0 size", "0 size=0",
                            "0 size=1x1x1", "0 size=4%", "0 diameter=-1", "0 diameter=91", "0 diameter=nan"}) {
-    LightEdits edits;
+    stage::LightEdits edits;
     const auto parsed = parse_light_edit(text, edits);
     EXPECT_FALSE(parsed) << text;
     if (!parsed) {
       EXPECT_NE(parsed.error().message.find("expected"), std::string::npos) << text;
     }
   }
-}
-
-TEST(LightEdits, ChangeTheirLightAndNoOther) {
-  LightEdits edits(2);
-  edits[0].on = false;
-  edits[1] = {.intensity = 2, .move = {0, 1, 0}, .size_m = glm::vec2(6, 3)};
-  std::vector<WorldLight> placed(3);
-  for (int i = 0; i < 3; ++i) placed[static_cast<std::size_t>(i)].light = i;
-  const auto moved = edited_lights(placed, edits);
-  ASSERT_EQ(moved.size(), 3u) << "numbers stay what they are";
-  EXPECT_EQ(moved[1].position, vec3(0, 1, 0));
-  EXPECT_EQ(moved[1].axis_x, vec3(3, 0, 0));
-  EXPECT_EQ(moved[1].axis_y, vec3(0, 1.5f, 0));
-  EXPECT_EQ(moved[2].position, vec3(0, 0, 0));
-  const auto lights = edited_lights(std::vector<Light>(3), edits);
-  EXPECT_EQ(lights[0].intensity, 0);
-  EXPECT_EQ(lights[1].intensity, 2);
-  EXPECT_EQ(lights[2].intensity, 1);
-  EXPECT_EQ(edited_sizes_m(edits), (std::vector<std::optional<glm::vec2>>{std::nullopt, glm::vec2(6, 3)}));
 }
 
 io::Image8 rendered(const TemporaryFolder& folder, std::vector<std::string> arguments) {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "io/image.h"
-#include "options/scene_edits.h"
+#include "options/edit_texts.h"
 #include "viewer_test_scene.h"
 #include "window/undo_history.h"
 
@@ -12,8 +12,8 @@ namespace {
 using glm::vec3;
 using testing::TemporaryFolder;
 
-SceneEdits some_of_everything() {
-  SceneEdits edits;
+stage::SceneEdits some_of_everything() {
+  stage::SceneEdits edits;
   edits.lights.resize(2);
   edits.lights[1] = {.intensity = 0.5f, .color = vec3(1, 0.25f, 0), .direction = vec3(0.5f, -1, 1e-7f)};
   edits.added = {{.type = LightType::spot, .position = {1, 2, -3}, .intensity = 7, .color = {0, 1, 0.5f}},
@@ -26,8 +26,8 @@ SceneEdits some_of_everything() {
 }
 
 TEST(SceneEdits, ReadBackWhatTheyWrite) {
-  const SceneEdits edits = some_of_everything();
-  SceneEdits read;
+  const stage::SceneEdits edits = some_of_everything();
+  stage::SceneEdits read;
   for (const EditOption& option : edit_options(edits)) {
     const std::string name = option.name;
     const auto parsed = name == "--set-light"      ? parse_light_edit(option.value, read.lights)
@@ -41,7 +41,7 @@ TEST(SceneEdits, ReadBackWhatTheyWrite) {
 }
 
 TEST(SceneEdits, RefuseInASentence) {
-  SceneEdits edits;
+  stage::SceneEdits edits;
   for (const char* text : {"", "moon", "point glow=1", "point intensity=-1", "directional direction=0,0,0",
                            "spot color=-1,0,0", "point position=1,2"})
     EXPECT_NE(parse_added_light(text, edits).error().message.find("expected"), std::string::npos) << text;
@@ -53,40 +53,6 @@ TEST(SceneEdits, RefuseInASentence) {
   for (const char* text : {"0 direction=0,0,0", "0 color=0,-1,0"})
     EXPECT_NE(parse_light_edit(text, edits.lights).error().message.find("expected"), std::string::npos)
         << text;
-}
-
-TEST(SceneEdits, HideNodesWithAllBelowThem) {
-  Scene scene;
-  scene.materials.resize(1);
-  scene.meshes.push_back(
-      {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}}, .materials = {0}});
-  scene.nodes = {{.mesh = 0}, {}, {.parent = 1, .mesh = 0}, {.parent = 2, .mesh = 0}, {.mesh = 0}};
-  SceneEdits edits;
-  edits.nodes[1].visible = false;
-  edits.nodes[4].casts = false;
-  FrameGeometry edited, baked;
-  evaluate_frame(scene, -1, 0, edited);
-  apply_node_edits(scene, edits, edited);
-  EXPECT_EQ(edited.casts_shadow, (std::vector<std::uint8_t>{1, 1, 1, 0}));
-  scene.nodes[1].visible = false;
-  evaluate_frame(scene, -1, 0, baked);
-  EXPECT_EQ(edited.triangles, baked.triangles);
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i)
-    EXPECT_EQ(edited.pose.nodes[i].visible, baked.pose.nodes[i].visible) << i;
-}
-
-TEST(SceneEdits, TurnAreaLightsAsAWhole) {
-  WorldLight light{.light = 0, .direction = {0, 0, -1}, .axis_x = {2, 0, 0}, .axis_y = {0, 1, 0}};
-  for (const vec3 to : {vec3(0, -3, 0), vec3(0, 0, 5), vec3(1, 1, 1), vec3(0, 0, -1)}) {
-    LightEdits edits(1);
-    edits[0].direction = to;
-    const WorldLight turned = edited_lights(std::vector{light}, edits).front();
-    EXPECT_NEAR(glm::distance(turned.direction, glm::normalize(to)), 0, 1e-6);
-    EXPECT_NEAR(glm::dot(turned.direction, turned.axis_x), 0, 1e-6);
-    EXPECT_NEAR(glm::distance(glm::normalize(glm::cross(turned.axis_x, turned.axis_y)), -turned.direction), 0,
-                1e-6);
-    EXPECT_NEAR(glm::length(turned.axis_x), 2, 1e-6);
-  }
 }
 
 io::Image8 rendered_moving(const TemporaryFolder& folder, std::vector<std::string> arguments) {
@@ -123,7 +89,7 @@ TEST(SceneEdits, AreOptionsOfRender) {
 }
 
 TEST(UndoHistory, StepsBackAndForthByMomentsOfRest) {
-  SceneEdits edits;
+  stage::SceneEdits edits;
   UndoHistory history;
   history.begin(edits);
   EXPECT_FALSE(history.undo(edits));
@@ -140,7 +106,7 @@ TEST(UndoHistory, StepsBackAndForthByMomentsOfRest) {
   history.follow(edits, true);
   EXPECT_TRUE(history.can_redo()) << "undoing is no change of its own";
   EXPECT_TRUE(history.undo(edits));
-  EXPECT_EQ(edits, SceneEdits{}) << "the whole drag at once";
+  EXPECT_EQ(edits, stage::SceneEdits{}) << "the whole drag at once";
   EXPECT_FALSE(history.undo(edits));
   EXPECT_TRUE(history.redo(edits));
   EXPECT_TRUE(history.redo(edits));

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "options/light_edits.h"
+#include "stage/edits/light_edits.h"
 #include "support/seeded_random.h"
 #include "window/motion/camera_control.h"
 

@@ -93,7 +93,7 @@ Expected<Baking> prepare(const BakeOptions& options) {
     return base::fail("{}: found no light, expected one; --add-light adds it, --what ao needs none",
                       options.scene.file);
   drop_added_parts(baking.plan);
-  if (auto checked = check_edits(options.scene.edits, scene); !checked)
+  if (auto checked = stage::check_edits(options.scene.edits, scene); !checked)
     return tl::unexpected(checked.error());
   bake::separate_meshes(scene);
   if (options.target == BakeTarget::vertices) bake::separate_flat_corners(scene);
@@ -101,8 +101,8 @@ Expected<Baking> prepare(const BakeOptions& options) {
   if (!time_s) return tl::unexpected(time_s.error());
 
   evaluate_frame(scene, baking.plan.clip, *time_s, baking.input.geometry);
-  apply_node_edits(scene, options.scene.edits, baking.input.geometry);
-  baking.input.lights = placed_lights(scene, options.scene.edits, baking.plan.clip, *time_s);
+  stage::apply_node_edits(scene, options.scene.edits, baking.input.geometry);
+  baking.input.lights = stage::placed_lights(scene, options.scene.edits, baking.plan.clip, *time_s);
   baking.request.settings = bake_settings(options);
   baking.request.direct = options.content != BakeContent::ao;
   if (options.content == BakeContent::both)
@@ -121,8 +121,8 @@ struct LitScene {
 };
 Expected<void> light_scene(const BakeOptions& options, Baking& baking, LitScene& out) {
   out.scene = baking.plan.scene;
-  out.scene.lights = lights_of(baking.plan.scene, options.scene.edits);
-  out.scene.materials = materials_of(baking.plan.scene, options.scene.edits);
+  out.scene.lights = stage::lights_of(baking.plan.scene, options.scene.edits);
+  out.scene.materials = stage::materials_of(baking.plan.scene, options.scene.edits);
   auto light = bake::SurfaceLight::create(out.scene, baking.input, baking.request, baking.notes);
   if (!light) return tl::unexpected(light.error());
   out.light = std::move(*light);

@@ -47,7 +47,7 @@ std::string channel_word(std::string name) {
 class LightNames {
 public:
   LightNames(const RenderPlan& plan, const RenderOptions& options, double time_s) {
-    for (const WorldLight& placed : placed_lights(plan.scene, options.scene.edits, plan.clip, time_s))
+    for (const WorldLight& placed : stage::placed_lights(plan.scene, options.scene.edits, plan.clip, time_s))
       names_.push_back(channel_word(plan.scene.lights[static_cast<std::size_t>(placed.light)].name));
   }
   /// No two lights have the same.

@@ -5,16 +5,16 @@
 #include <numbers>
 #include <string_view>
 
-#include <tenebra/additions.h>
+#include "stage/additions.h"
 #include "base/fail.h"
 #include "commands/command.h"
 #include "commands/gl_survey.h"
-#include "cutout/cutout.h"
+#include "stage/cutout/cutout.h"
 #include "options/memory_option.h"
 #include "options/method_options.h"
 #include "options/option_values.h"
 #include "options/scene_options.h"
-#include "scene/looks.h"
+#include "stage/looks.h"
 #include "shared/scene_choice.h"
 #include "shared/scene_plan.h"
 #include "shared/scene_summary.h"
@@ -215,13 +215,13 @@ void add_changes(Scene& scene, Json& json) {
     for (std::size_t i = from; i < scene.warnings.size(); ++i) json[key].push_back(scene.warnings[i]);
   };
   std::size_t said = scene.warnings.size();
-  scene::leave_out_blank_emission(scene);
+  stage::leave_out_blank_emission(scene);
   move_said("warnings", said);
   said = scene.warnings.size();
-  add_missing_parts(scene);
+  stage::add_missing_parts(scene);
   move_said("added", said);
   said = scene.warnings.size();
-  const cutout::CutoutCounts counts = cutout::cut_out_masks(scene);
+  const stage::CutoutCounts counts = stage::cut_out_masks(scene);
   json["counts"]["cut_out_triangles"] = counts.triangles;
   json["counts"]["drawn_in_their_place"] = counts.left;
   move_said("warnings", said);
@@ -248,7 +248,7 @@ Expected<int> info(const InfoOptions& options) {
   if (auto limited = limit_memory(options.memory_mb); !limited) return tl::unexpected(limited.error());
   auto scene = formats::import_scene(options.scene, options.import);
   if (!scene) return tl::unexpected(scene.error());
-  leave_out_covers(*scene);
+  stage::leave_out_covers(*scene);
   Json json = describe(*scene, options);
   add_changes(*scene, json);
   if (auto metered = add_metered(options, json); !metered) return tl::unexpected(metered.error());

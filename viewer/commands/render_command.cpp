@@ -76,7 +76,7 @@ public:
     render::Renderer renderer = render::Renderer::create(std::move(*raster), plan_.scene);
     if (plan_.environment) renderer.set_environment(*plan_.environment);
     if (!options_.scene.edits.materials.empty())
-      renderer.set_materials(materials_of(plan_.scene, options_.scene.edits));
+      renderer.set_materials(stage::materials_of(plan_.scene, options_.scene.edits));
     FrameGeometry first_frame;
     evaluate_frame(plan_.scene, plan_.clip, plan_.frames.front().time_s, first_frame);
     auto settings = describe_render(plan_, options_, raster_names(renderer.raster()), first_frame);
@@ -131,8 +131,8 @@ private:
                            const StopFlag& stop, render::FrameResult& result) {
     const auto begin = begun_ = Clock::now();
     evaluate_frame(plan_.scene, plan_.clip, planned.time_s, input_.geometry);
-    apply_node_edits(plan_.scene, options_.scene.edits, input_.geometry);
-    input_.lights = placed_lights(plan_.scene, options_.scene.edits, plan_.clip, planned.time_s);
+    stage::apply_node_edits(plan_.scene, options_.scene.edits, input_.geometry);
+    input_.lights = stage::placed_lights(plan_.scene, options_.scene.edits, plan_.clip, planned.time_s);
     input_.view = view_of(plan_, options_.scene, planned.time_s, plan_.size);
     const double evaluate_ms = milliseconds(Clock::now() - begin);
     const auto on_progress = [&](std::string_view what, double done) { progress.show_building(what, done); };

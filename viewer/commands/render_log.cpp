@@ -6,6 +6,7 @@
 #include "base/statistics.h"
 #include "commands/frame_budget.h"
 #include "options/choices.h"
+#include "options/edit_texts.h"
 #include "parallel/parallel.h"
 
 namespace tenebra::viewer {
@@ -30,7 +31,7 @@ std::string environment_text(const ScenePlan& plan, const SceneOptions& options)
   return plan.environment ? "a soft sky" : "none";
 }
 
-std::string added_text(const AddedParts& added) {
+std::string added_text(const stage::AddedParts& added) {
   std::string text;
   for (const auto& [is_added, name] :
        {std::pair(added.camera, "camera"), std::pair(added.light, added.lamp ? "lamp" : "sun"),

@@ -10,6 +10,7 @@
 #include "commands/command.h"
 #include "io/output_file.h"
 #include "options/config_file.h"
+#include "options/edit_texts.h"
 #include "options/memory_option.h"
 #include "options/method_arguments.h"
 #include "options/raster_options.h"

@@ -127,10 +127,10 @@ public:
 
 private:
   Expected<void> check_frame(render::Renderer& renderer, const PlannedFrame& planned, StopSignals& stop) {
-    const SceneEdits& edits = options_.render.scene.edits;
+    const stage::SceneEdits& edits = options_.render.scene.edits;
     evaluate_frame(plan_.scene, plan_.clip, planned.time_s, input_.geometry);
-    apply_node_edits(plan_.scene, edits, input_.geometry);
-    input_.lights = placed_lights(plan_.scene, edits, plan_.clip, planned.time_s);
+    stage::apply_node_edits(plan_.scene, edits, input_.geometry);
+    input_.lights = stage::placed_lights(plan_.scene, edits, plan_.clip, planned.time_s);
     input_.view = view_of(plan_, options_.render.scene, planned.time_s, plan_.size);
     const render::RenderSettings settings = checked_settings(plan_);
     auto drawn = renderer.render_frame(input_, settings, result_, {}, &stop.flag());

@@ -47,7 +47,7 @@ Expected<int> view(ViewOptions options) {
     if (!bundled) return tl::unexpected(bundled.error());
     options.scene.file = bundled->string();
   }
-  if (options.method.render.light >= 0 || options.scene.edits != SceneEdits{}) {
+  if (options.method.render.light >= 0 || options.scene.edits != stage::SceneEdits{}) {
     auto planned = plan_with_lights(options);
     if (!planned) return tl::unexpected(planned.error());
     options.plan = std::move(*planned);

@@ -1,4 +1,5 @@
 #include "options/scene_options.h"
+#include "options/edit_texts.h"
 
 #include "base/fail.h"
 #include "options/choices.h"
@@ -98,7 +99,7 @@ void add_edits(CLI::App& command, SceneOptions& options) {
   };
   add(
       "--set-light",
-      [](const std::string& text, SceneEdits& edits) { return parse_light_edit(text, edits.lights); },
+      [](const std::string& text, stage::SceneEdits& edits) { return parse_light_edit(text, edits.lights); },
       "\"N KEY=VALUE ...\" changes light N: on=0,\nintensity=FACTOR, color=R,G,B, "
       "direction=X,Y,Z,\nmove=X,Y,Z "
       "(metres), size=WxH (metres, for soft\nshadows), diameter=DEGREES (of directional lights);\nmay be "

@@ -8,8 +8,8 @@
 
 #include "formats/import_scene.h"
 #include "options/option_values.h"
-#include "options/scene_edits.h"
 #include "shell/command_line.h"
+#include "stage/edits/scene_edits.h"
 
 namespace tenebra::viewer {
 
@@ -22,7 +22,7 @@ struct SceneOptions {
   std::optional<Transfer> transfer;  ///< none: the format's own
   std::string environment;           ///< a Radiance picture; empty: none
   bool floor = true;                 ///< one is added where light and floor are missing
-  bool plain = false;                ///< surfaces without textures and gloss (scene::make_plain)
+  bool plain = false;                ///< surfaces without textures and gloss (stage::make_plain)
 
   bool meter_exposure = false;  ///< a method asks for --exposure auto
 
@@ -37,7 +37,7 @@ struct SceneOptions {
   std::optional<double> fov_deg;
   std::optional<Size> size;
 
-  SceneEdits edits;
+  stage::SceneEdits edits;
 };
 
 /// Adds SCENE, --scene, --no-cast, --cast-all, --cone-sides, --cutout-limit, --texture-path, --transfer,

@@ -82,8 +82,8 @@ Expected<AutoExposures> meter_exposures(const ScenePlan& plan, const SceneOption
   auto raster = render::FrameRaster::create({.kind = render::RasterKind::cpu});
   if (!raster) return tl::unexpected(raster.error());
   render::Renderer renderer = render::Renderer::create(std::move(*raster), plan.scene);
-  renderer.set_lights(lights_of(plan.scene, options.edits));
-  renderer.set_materials(materials_of(plan.scene, options.edits));
+  renderer.set_lights(stage::lights_of(plan.scene, options.edits));
+  renderer.set_materials(stage::materials_of(plan.scene, options.edits));
   if (plan.environment) renderer.set_environment(*plan.environment);
   const Size size = metered_size(plan.size);
   const render::RenderSettings settings{.width = size.width, .height = size.height, .linear = true};
@@ -92,8 +92,8 @@ Expected<AutoExposures> meter_exposures(const ScenePlan& plan, const SceneOption
   std::vector<Colors> pictures;
   for (const double time_s : metered_times(plan)) {
     evaluate_frame(plan.scene, plan.clip, time_s, input.geometry);
-    apply_node_edits(plan.scene, options.edits, input.geometry);
-    input.lights = placed_lights(plan.scene, options.edits, plan.clip, time_s);
+    stage::apply_node_edits(plan.scene, options.edits, input.geometry);
+    input.lights = stage::placed_lights(plan.scene, options.edits, plan.clip, time_s);
     input.view = view_of(plan, options, time_s, size);
     if (auto done = renderer.render_frame(input, settings, drawn); !done) return tl::unexpected(done.error());
     Colors colors = seen_colors(drawn, plan.environment.has_value());

@@ -56,9 +56,9 @@ Expected<RenderPlan> plan_render(const RenderOptions& options) {
   plan.settings.linear_mean = options.pictures.are_exr();
   plan.settings.aovs = options.pictures.aovs;
   plan.settings.sample_masks = !options.mask_samples.empty();
-  plan.settings.area_lights.own_size_m = edited_sizes_m(options.scene.edits.lights);
-  plan.settings.area_lights.own_sun_deg = edited_suns_deg(options.scene.edits.lights);
-  plan.scene.lights = lights_of(plan.scene, options.scene.edits);
+  plan.settings.area_lights.own_size_m = stage::edited_sizes_m(options.scene.edits.lights);
+  plan.settings.area_lights.own_sun_deg = stage::edited_suns_deg(options.scene.edits.lights);
+  plan.scene.lights = stage::lights_of(plan.scene, options.scene.edits);
   const int light = plan.settings.light;
   // Emissive meshes follow the scene's lights; the renderer, which finds them, checks their number.
   const bool emissive = plan.settings.area_lights.emissive_quads;

@@ -5,11 +5,13 @@
 #include <numbers>
 
 #include "base/fail.h"
-#include "cutout/cutout.h"
-#include "scene/default_light.h"
-#include "scene/looks.h"
 #include "shared/auto_exposure.h"
 #include "shared/scene_choice.h"
+#include "stage/additions.h"
+#include "stage/cutout/cutout.h"
+#include "stage/default_light.h"
+#include "stage/left_out.h"
+#include "stage/looks.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -45,8 +47,9 @@ Expected<void> apply_field_of_view(Scene& scene, int camera, const SceneOptions&
 
 void complete(const SceneOptions& options, ScenePlan& plan) {
   // The camera is the same whatever --size is.
-  plan.added = add_missing_parts(plan.scene, {.floor = options.floor && !plan.environment, .aspect = {}});
-  if (plan.added.light && !plan.added.lamp && !plan.environment) plan.environment = scene::soft_sky();
+  plan.added =
+      stage::add_missing_parts(plan.scene, {.floor = options.floor && !plan.environment, .aspect = {}});
+  if (plan.added.light && !plan.added.lamp && !plan.environment) plan.environment = stage::soft_sky();
 }
 
 /// Nodes may share a light: each gets its own, so that a light has the same number for --light, for
@@ -69,7 +72,7 @@ Expected<ScenePlan> plan_scene(const SceneOptions& options) {
   ScenePlan plan;
   plan.scene = std::move(*scene);
   std::string unmatched;
-  if (!leave_out_casters(plan.scene, options.no_cast, unmatched)) {
+  if (!stage::leave_out_casters(plan.scene, options.no_cast, unmatched)) {
     return base::fail("--no-cast: {} names no mesh, material or FILE:LINE of the scene", unmatched);
   }
   if (options.transfer) plan.scene.transfer = *options.transfer;
@@ -78,13 +81,14 @@ Expected<ScenePlan> plan_scene(const SceneOptions& options) {
     if (!picture) return base::fail("--environment: {}", picture.error().message);
     plan.environment = std::move(*picture);
   }
-  scene::leave_out_blank_emission(plan.scene);  // before a floor is added, which is not blank
+  stage::leave_out_blank_emission(plan.scene);  // before a floor is added, which is not blank
   complete(options, plan);
   number_lights(plan.scene);
-  cutout::cut_out_masks(plan.scene, {.most_added = static_cast<std::size_t>(options.cutout_limit)});
-  if (options.plain) scene::make_plain(plan.scene);
-  if (!options.cast_all) leave_out_covers(plan.scene);
-  if (auto checked = check_edits(options.edits, plan.scene); !checked) return tl::unexpected(checked.error());
+  stage::cut_out_masks(plan.scene, {.most_added = static_cast<std::size_t>(options.cutout_limit)});
+  if (options.plain) stage::make_plain(plan.scene);
+  if (!options.cast_all) stage::leave_out_covers(plan.scene);
+  if (auto checked = stage::check_edits(options.edits, plan.scene); !checked)
+    return tl::unexpected(checked.error());
 
   const auto clip = choose_clip(plan.scene, options.clip);
   if (!clip) return tl::unexpected(clip.error());
@@ -128,8 +132,8 @@ ViewRays view_of(const ScenePlan& plan, const SceneOptions& options, double time
                  radians(options.fov_deg.value_or(default_fov_deg)), near_m, size.width, size.height);
 }
 
-Expected<int> check_light(const ScenePlan& plan, const SceneEdits& edits, int light, double time_s) {
-  const int count = static_cast<int>(unmoved_lights(plan.scene, edits, plan.clip, time_s).size());
+Expected<int> check_light(const ScenePlan& plan, const stage::SceneEdits& edits, int light, double time_s) {
+  const int count = static_cast<int>(stage::unmoved_lights(plan.scene, edits, plan.clip, time_s).size());
   if (light >= count) return base::fail("--light: found {}, the scene has lights 0 to {}", light, count - 1);
   return count;
 }

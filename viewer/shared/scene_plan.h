@@ -1,11 +1,11 @@
 // A scene made ready for drawing: loaded, with its clip and camera chosen. All commands that draw share it.
 #pragma once
 
-#include <tenebra/additions.h>
 #include <tenebra/frame_geometry.h>
 #include "io/image.h"
 #include "options/method_options.h"
 #include "options/scene_options.h"
+#include "stage/additions.h"
 
 namespace tenebra::viewer {
 
@@ -17,7 +17,7 @@ struct ScenePlan {
   Size size;                              ///< --size, or what the camera asks for
   std::optional<io::ImageF> environment;  ///< --environment, or the soft sky of an added light
   SceneDisplay display;
-  AddedParts added;
+  stage::AddedParts added;
 };
 
 /// Imports the scene and fits the options to it. Fails on what the scene does not have.
@@ -31,6 +31,6 @@ ViewRays view_of_camera(const ScenePlan& plan, int clip, int camera, double time
 
 /// Fails if the scene with its edits lacks light `light` (-1: all) at `time_s`; else the number of its
 /// lights.
-Expected<int> check_light(const ScenePlan& plan, const SceneEdits& edits, int light, double time_s);
+Expected<int> check_light(const ScenePlan& plan, const stage::SceneEdits& edits, int light, double time_s);
 
 }  // namespace tenebra::viewer

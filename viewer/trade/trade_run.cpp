@@ -150,7 +150,8 @@ private:
     render::Renderer renderer = render::Renderer::create(std::move(*raster), plan.scene);
     if (plan.environment) renderer.set_environment(*plan.environment);
     renderer.set_lights(request_.lights);
-    if (!request_.edits.materials.empty()) renderer.set_materials(materials_of(plan.scene, request_.edits));
+    if (!request_.edits.materials.empty())
+      renderer.set_materials(stage::materials_of(plan.scene, request_.edits));
     return renderer;
   }
 
@@ -159,8 +160,8 @@ private:
     const Scene& scene = request_.scene->scene;
     base::Stopwatch watch;
     evaluate_frame(scene, request_.clip, planned.time_s, input_.geometry);
-    apply_node_edits(scene, request_.edits, input_.geometry);
-    input_.lights = placed_lights(scene, request_.edits, request_.clip, planned.time_s);
+    stage::apply_node_edits(scene, request_.edits, input_.geometry);
+    input_.lights = stage::placed_lights(scene, request_.edits, request_.clip, planned.time_s);
     input_.view = request_.view(planned.time_s);
     if (auto drawn = renderer.render_frame(input_, settings, result_, {}, &stop_); !drawn)
       return tl::unexpected(drawn.error());

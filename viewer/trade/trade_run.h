@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "options/scene_edits.h"
 #include "shared/render_plan.h"
+#include "stage/edits/scene_edits.h"
 #include "trade/trade_settings.h"
 
 namespace tenebra::viewer {
@@ -42,7 +42,7 @@ struct TradeRequest {
   render::RenderSettings settings;        ///< what all share, and what is no choice
   render::RasterChoice raster;
   std::vector<Light> lights;  ///< the scene's, with their edits
-  SceneEdits edits;
+  stage::SceneEdits edits;
   std::function<ViewRays(double time_s)> view;
   TradeAxes axes;
   int repeats = 3;                ///< of each frame that is timed; slow ones fewer

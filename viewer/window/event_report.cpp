@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/fail.h"
+#include "options/edit_texts.h"
 #include "options/method_arguments.h"
 
 namespace tenebra::viewer {

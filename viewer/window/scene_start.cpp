@@ -33,7 +33,7 @@ void take_light(ViewState& state, int chosen) {
   const bool one_for_both = state.slots[0].render.light == state.slots[1].render.light;
   if (chosen >= 0 && (!one_for_both || state.slots[0].render.area_lights.emissive_quads)) return;
   const Scene& scene = state.scene->scene;
-  const auto placed = unmoved_lights(scene, state.edits, state.clip, state.options.time_s.value_or(0));
+  const auto placed = stage::unmoved_lights(scene, state.edits, state.clip, state.options.time_s.value_or(0));
   if (chosen >= static_cast<int>(placed.size())) return;  // the renderer says so
   for (int i = 0; chosen >= 0 && i < state.light_count(); ++i) {
     state.light_edit(i).on = i == placed[static_cast<std::size_t>(chosen)].light;

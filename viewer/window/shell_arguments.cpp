@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "options/edit_texts.h"
 #include "options/method_arguments.h"
 #include "options/scene_arguments.h"
 

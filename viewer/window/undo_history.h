@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "options/scene_edits.h"
+#include "stage/edits/scene_edits.h"
 
 namespace tenebra::viewer {
 
@@ -13,13 +13,13 @@ public:
   static constexpr std::size_t most_steps = 200;
 
   /// Forgets everything: a new scene with these edits.
-  void begin(const SceneEdits& edits) {
+  void begin(const stage::SceneEdits& edits) {
     before_.clear();
     after_.clear();
     now_ = edits;
   }
   /// Called once per turn of the window's loop. All changes until the hand rests are one step.
-  void follow(const SceneEdits& edits, bool hand_rests) {
+  void follow(const stage::SceneEdits& edits, bool hand_rests) {
     if (!hand_rests || edits == now_) return;
     before_.push_back(std::move(now_));
     if (before_.size() > most_steps) before_.erase(before_.begin());
@@ -29,11 +29,12 @@ public:
   bool can_undo() const { return !before_.empty(); }
   bool can_redo() const { return !after_.empty(); }
   /// False where there is nothing to take back, and to do again.
-  bool undo(SceneEdits& edits) { return step(before_, after_, edits); }
-  bool redo(SceneEdits& edits) { return step(after_, before_, edits); }
+  bool undo(stage::SceneEdits& edits) { return step(before_, after_, edits); }
+  bool redo(stage::SceneEdits& edits) { return step(after_, before_, edits); }
 
 private:
-  bool step(std::vector<SceneEdits>& from, std::vector<SceneEdits>& to, SceneEdits& edits) {
+  bool step(std::vector<stage::SceneEdits>& from, std::vector<stage::SceneEdits>& to,
+            stage::SceneEdits& edits) {
     if (from.empty()) return false;
     to.push_back(std::move(now_));
     edits = now_ = std::move(from.back());
@@ -41,8 +42,8 @@ private:
     return true;
   }
 
-  std::vector<SceneEdits> before_, after_;
-  SceneEdits now_;
+  std::vector<stage::SceneEdits> before_, after_;
+  stage::SceneEdits now_;
 };
 
 }  // namespace tenebra::viewer

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "options/edit_texts.h"
 #include "options/method_arguments.h"
 
 namespace tenebra::viewer {

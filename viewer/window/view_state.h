@@ -40,7 +40,7 @@ struct ViewState {
   float wipe = 0.5f;
   int gain = 8;  ///< factor of the difference as it is shown
 
-  SceneEdits edits;
+  stage::SceneEdits edits;
   int selected_light = -1;
   int selected_node = -1;
   int selected_material = -1;
@@ -72,7 +72,7 @@ struct ViewState {
     pivot_asked = false;
   }
   MethodOptions& method() { return slots[static_cast<std::size_t>(active)]; }
-  LightEdit& light_edit(int light) { return edits.light(light); }
+  stage::LightEdit& light_edit(int light) { return edits.light(light); }
   int light_count() const { return static_cast<int>(scene->scene.lights.size() + edits.added.size()); }
   /// `light` is less than light_count().
   LightType light_type(int light) const {

@@ -8,7 +8,7 @@
 #include "bench/picture/picture_maker.h"
 #include "math/srgb.h"
 #include "render/antialias/pattern.h"
-#include "scene/looks.h"
+#include "stage/looks.h"
 
 namespace tenebra::bench {
 namespace {
@@ -75,7 +75,7 @@ TEST_P(PictureReference, IsTheMeanOfPicturesOfOneSample) {
   auto scene = load_picture_scene(find_scene(bench_scene(GetParam().scene), {}, made), {});
   ASSERT_TRUE(scene) << scene.error().message;
   ASSERT_EQ(scene->transfer, Transfer::srgb);
-  scene::make_plain(*scene);
+  stage::make_plain(*scene);
   auto maker = PictureMaker::create({*scene, 96, 64, 2});
   ASSERT_TRUE(maker) << maker.error().message;
   maker->evaluate(GetParam().frame);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/machine.h"
+#include "options/edit_texts.h"
 #include "options/method_arguments.h"
 #include "parallel/parallel.h"
 

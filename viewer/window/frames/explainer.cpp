@@ -24,7 +24,7 @@ public:
                       nodes_ == e.edits.nodes && see_through_ == see_through;
     if (same) return geometry_;
     evaluate_frame(picture.scene->scene, e.clip, e.time_s, geometry_);
-    apply_node_edits(picture.scene->scene, e.edits, geometry_);
+    stage::apply_node_edits(picture.scene->scene, e.edits, geometry_);
     if (see_through != SeeThrough::tint && !geometry_.see_through.empty())
       cast_see_through(see_through, geometry_);
     scene_ = picture.scene;
@@ -39,7 +39,7 @@ private:
   std::shared_ptr<const ScenePlan> scene_;
   int clip_ = -1;
   double time_s_ = 0;
-  std::map<int, NodeEdit> nodes_;
+  std::map<int, stage::NodeEdit> nodes_;
   SeeThrough see_through_ = SeeThrough::tint;
   FrameGeometry geometry_;
 };

@@ -87,23 +87,23 @@ Expected<std::shared_ptr<Picture>> FrameMaker::make(const FrameRequest& request,
   const Scene& scene = request.scene->scene;
   base::Stopwatch watch;
   evaluate_frame(scene, request.clip, time_s, input_.geometry);
-  apply_node_edits(scene, request.edits, input_.geometry);
-  input_.lights = placed_lights(scene, request.edits, request.clip, time_s);
+  stage::apply_node_edits(scene, request.edits, input_.geometry);
+  input_.lights = stage::placed_lights(scene, request.edits, request.clip, time_s);
   const Size whole{request.a.width, request.a.height};
   render::RenderSettings settings = preview_settings(request.a, level);
   drawn_ = {settings.width, settings.height};
   input_.view = view_of_request(request, time_s, whole);
   if (level.divisor > 1) input_.view = view_in_pixels(input_.view, whole, drawn_);
   evaluate_ms_ = watch.lap_ms();
-  renderer_->set_lights(lights_of(scene, request.edits));
+  renderer_->set_lights(stage::lights_of(scene, request.edits));
   if (request.edits.materials != materials_) {
-    renderer_->set_materials(materials_of(scene, request.edits));
+    renderer_->set_materials(stage::materials_of(scene, request.edits));
     materials_ = request.edits.materials;
   }
 
   auto picture = std::make_shared<Picture>();
-  settings.area_lights.own_size_m = edited_sizes_m(request.edits.lights);
-  settings.area_lights.own_sun_deg = edited_suns_deg(request.edits.lights);
+  settings.area_lights.own_size_m = stage::edited_sizes_m(request.edits.lights);
+  settings.area_lights.own_sun_deg = stage::edited_suns_deg(request.edits.lights);
   settings.diagnostics = request.overlay != Overlay::none;
   auto a = draw(request, settings, time_s, progress, stop);
   if (!a) return tl::unexpected(a.error());
@@ -127,7 +127,7 @@ Expected<std::shared_ptr<Picture>> FrameMaker::make(const FrameRequest& request,
   picture->preview = preview_text(request.a, level);
   picture->whole = whole;
   picture->view = input_.view;
-  picture->lights = unmoved_lights(scene, request.edits, request.clip, time_s);
+  picture->lights = stage::unmoved_lights(scene, request.edits, request.clip, time_s);
   picture->clock = request.clock;
   return picture;
 }

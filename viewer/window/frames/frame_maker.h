@@ -44,8 +44,8 @@ private:
   std::shared_ptr<const ScenePlan> scene_;
   std::optional<render::Renderer> renderer_;
   render::FrameInput input_;
-  Size drawn_;                             ///< pixels of what was drawn last
-  std::map<int, MaterialEdit> materials_;  // that renderer_ has
+  Size drawn_;                                    ///< pixels of what was drawn last
+  std::map<int, stage::MaterialEdit> materials_;  // that renderer_ has
   double evaluate_ms_ = 0;
 };
 

@@ -6,12 +6,12 @@
 #include <optional>
 
 #include "options/output_pattern.h"
-#include "options/scene_edits.h"
 #include "render/frame_lights.h"
 #include "render/log/frame_columns.h"
 #include "render/renderer.h"
 #include "shared/picture_difference.h"
 #include "shared/scene_plan.h"
+#include "stage/edits/scene_edits.h"
 #include "window/motion/animation_clock.h"
 #include "window/motion/camera_control.h"
 
@@ -29,7 +29,7 @@ struct FrameRequest {
   AnimationClock clock;
   int camera = 0;                  ///< of the scene
   std::optional<FreeCamera> free;  ///< instead of the scene's camera
-  SceneEdits edits;
+  stage::SceneEdits edits;
   render::RenderSettings a;
   int slot = 0;                             ///< of `a`: 0 for A, 1 for B (then b is empty)
   std::optional<render::RenderSettings> b;  ///< to compare with
@@ -46,7 +46,7 @@ struct PictureEvidence {
   render::RenderSettings settings;           ///< of `a`
   int clip = -1;
   double time_s = 0;
-  SceneEdits edits;
+  stage::SceneEdits edits;
 };
 
 /// One method's frame of a picture.

@@ -15,7 +15,7 @@ constexpr std::array<ImU32, 3> axis_colors{IM_COL32(236, 96, 96, 255), IM_COL32(
                                            IM_COL32(104, 150, 255, 255)};
 
 bool is_shown(const ViewState& state, int light) {
-  return !edit_of(state.edits.lights, light).deleted;
+  return !stage::edit_of(state.edits.lights, light).deleted;
 }
 
 /// Right, up and towards the eye, of a view.
@@ -33,7 +33,7 @@ glm::dvec3 tip_direction(const WorldLight& light, LightType type) {
 /// The lights as their edits place them, of those in the picture.
 std::vector<WorldLight> lights_in_view(const Ui& ui) {
   if (ui.picture->scene != ui.state.scene) return {};
-  std::vector<WorldLight> lights = edited_lights(ui.picture->lights, ui.state.edits.lights);
+  std::vector<WorldLight> lights = stage::edited_lights(ui.picture->lights, ui.state.edits.lights);
   // Until the next picture comes, this one has a light whose adding was undone.
   std::erase_if(lights, [&](const WorldLight& light) { return light.light >= ui.state.light_count(); });
   return lights;
@@ -102,7 +102,7 @@ public:
 
 private:
   ImU32 color_of(int light) const {
-    return edit_of(ui_.state.edits.lights, light).on ? shining : palette::dim;
+    return stage::edit_of(ui_.state.edits.lights, light).on ? shining : palette::dim;
   }
   bool take(ImVec2 at, float radius, LightHandle handle) {
     const bool hovered = near(at, pointer_, radius);

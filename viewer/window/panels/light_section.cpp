@@ -9,13 +9,13 @@ namespace tenebra::viewer {
 namespace {
 
 /// As the picture has it: the light's own, the method's or the scene's.
-float diameter_of(const Ui& ui, const Light& light, const LightEdit& edit) {
+float diameter_of(const Ui& ui, const Light& light, const stage::LightEdit& edit) {
   const std::optional<float>& of_all = ui.state.method().render.area_lights.sun_deg;
   return edit.diameter_deg.value_or(of_all.value_or(light.diameter_deg));
 }
 
 /// A directional light with a disc is a sun.
-std::string_view type_name(const Ui& ui, const Light& light, const LightEdit& edit) {
+std::string_view type_name(const Ui& ui, const Light& light, const stage::LightEdit& edit) {
   const bool sun = light.type == LightType::directional && diameter_of(ui, light, edit) > 0;
   return sun ? "sun" : light_type_name(light.type);
 }
@@ -34,7 +34,7 @@ glm::vec2 size_without_edit_m(const Ui& ui, int index, const Light& light) {
   return light.size_m;
 }
 
-void edit_light_size(Ui& ui, int index, const Light& light, LightEdit& edit) {
+void edit_light_size(Ui& ui, int index, const Light& light, stage::LightEdit& edit) {
   row(ui, "  Size",
       "Width and height in metres, for soft shadows. A point light has the method's size until you change "
       "it.");
@@ -49,7 +49,7 @@ void edit_light_size(Ui& ui, int index, const Light& light, LightEdit& edit) {
   ui.mark(fmt::format("light.{}.size", index));
 }
 
-void edit_sun_size(Ui& ui, int index, const Light& light, LightEdit& edit) {
+void edit_sun_size(Ui& ui, int index, const Light& light, stage::LightEdit& edit) {
   row(ui, "  Size", "Diameter as seen from the scene, for soft shadows; the sun's is 0.53. 0: hard shadows.");
   float diameter = diameter_of(ui, light, edit);
   if (ImGui::SliderFloat("##sun", &diameter, 0, 90, "%.2f deg",
@@ -90,7 +90,7 @@ glm::vec3 direction_of(Bearing bearing) {
 }
 
 /// Where the light shines as the picture has it, with its edit.
-glm::vec3 direction_now(const Ui& ui, int index, const LightEdit& edit) {
+glm::vec3 direction_now(const Ui& ui, int index, const stage::LightEdit& edit) {
   if (edit.direction) return *edit.direction;
   for (const WorldLight& placed : ui.picture ? ui.picture->lights : std::vector<WorldLight>{}) {
     if (placed.light == index) return placed.direction;
@@ -98,7 +98,7 @@ glm::vec3 direction_now(const Ui& ui, int index, const LightEdit& edit) {
   return {0, -1, 0};
 }
 
-void edit_direction(Ui& ui, int index, LightType type, LightEdit& edit) {
+void edit_direction(Ui& ui, int index, LightType type, stage::LightEdit& edit) {
   const bool sun = type == LightType::directional;
   const float sign = sun ? -1.0f : 1.0f;
   Bearing bearing = bearing_of(sign * direction_now(ui, index, edit));
@@ -113,7 +113,7 @@ void edit_direction(Ui& ui, int index, LightType type, LightEdit& edit) {
   if (changed) edit.direction = sign * direction_of(bearing);
 }
 
-void edit_values(Ui& ui, int index, const Light& light, LightEdit& edit) {
+void edit_values(Ui& ui, int index, const Light& light, stage::LightEdit& edit) {
   if (const std::string method = method_of(ui, index); !method.empty() && ui.state.settings.research) {
     row(ui, "  Traced by",
         "The method that found its hard shadows in this picture: the variant, or its replacement.");
@@ -139,9 +139,9 @@ void edit_values(Ui& ui, int index, const Light& light, LightEdit& edit) {
 }
 
 void edit_light(Ui& ui, int index, const Light& light, bool open) {
-  LightEdit edit = edit_of(ui.state.edits.lights, index);
+  stage::LightEdit edit = stage::edit_of(ui.state.edits.lights, index);
   if (edit.deleted) return;
-  const LightEdit before = edit;
+  const stage::LightEdit before = edit;
   ImGui::PushID(index);
   ImGui::Checkbox("##on", &edit.on);
   ui.mark(fmt::format("light.{}.on", index));
@@ -158,8 +158,8 @@ void edit_light(Ui& ui, int index, const Light& light, bool open) {
   ui.mark(fmt::format("light.{}.name", index));
   if (ImGui::IsItemClicked()) ui.state.selected_light = index;
   tooltip(std::string(type_name(ui, light, edit)).c_str());
-  ImGui::SameLine(ImGui::GetWindowWidth() - ui.px(edit != LightEdit{} ? 128 : 76));
-  if (edit != LightEdit{}) {
+  ImGui::SameLine(ImGui::GetWindowWidth() - ui.px(edit != stage::LightEdit{} ? 128 : 76));
+  if (edit != stage::LightEdit{}) {
     if (ImGui::SmallButton("reset")) edit = {};
     ui.mark(fmt::format("light.{}.reset", index));
     ImGui::SameLine(0, ui.px(4));
@@ -177,7 +177,7 @@ void add_light(Ui& ui, LightType type) {
   const bool asked = ui.answer && !ui.answer->pixel.background;
   const glm::vec3 below = asked ? glm::vec3(ui.answer->pixel.point) : state.centre;
   const glm::vec3 above = below + glm::vec3(0, (asked ? 0.1f : 0.35f) * state.diagonal_m, 0);
-  AddedLight light{.type = type, .position = above};
+  stage::AddedLight light{.type = type, .position = above};
   if (type == LightType::directional) light.direction = glm::normalize(glm::vec3(-0.5f, -1, -0.3f));
   state.edits.added.push_back(light);
   state.selected_light = state.light_count() - 1;
@@ -210,7 +210,7 @@ void draw_light_section(Ui& ui) {
   ImGui::Checkbox("handles in the view", &state.light_handles);
   ui.mark("circles");
   add_lights(ui);
-  const std::vector<Light> unedited = lights_of(state.scene->scene, {.added = state.edits.added});
+  const std::vector<Light> unedited = stage::lights_of(state.scene->scene, {.added = state.edits.added});
   const int shown = state.selected_light;
   for (int i = 0; i < static_cast<int>(unedited.size()); ++i)
     edit_light(ui, i, unedited[static_cast<std::size_t>(i)], unedited.size() <= 4);

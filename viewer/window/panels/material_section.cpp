@@ -58,8 +58,8 @@ void draw_material_section(Ui& ui) {
   const Material& material = ui.state.scene->scene.materials[static_cast<std::size_t>(number)];
   auto& edits = ui.state.edits.materials;
   const auto found = edits.find(number);
-  MaterialEdit edit = found == edits.end() ? MaterialEdit{} : found->second;
-  const MaterialEdit before = edit;
+  stage::MaterialEdit edit = found == edits.end() ? stage::MaterialEdit{} : found->second;
+  const stage::MaterialEdit before = edit;
   ImGui::PushID(number);
   color_row(ui, "Colour", "material.color", material.base_color, edit.color);
   if (material.base_color_map) dim_text("times the colours of its texture");
@@ -70,7 +70,7 @@ void draw_material_section(Ui& ui) {
     share_row(ui, "Roughness", "material.roughness", material.roughness, edit.roughness);
   }
   color_row(ui, "Shines", "material.emissive", material.emissive, edit.emissive);
-  if (edit != MaterialEdit{}) {
+  if (edit != stage::MaterialEdit{}) {
     row(ui, "");
     if (ImGui::Button("as in the scene", {-1, 0})) edit = {};
     ui.mark("material.reset");
@@ -78,7 +78,7 @@ void draw_material_section(Ui& ui) {
   ImGui::PopID();
   if (edit == before) return;
   edits[number] = edit;
-  if (edit == MaterialEdit{}) edits.erase(number);
+  if (edit == stage::MaterialEdit{}) edits.erase(number);
 }
 
 }  // namespace tenebra::viewer

@@ -58,7 +58,7 @@ void open_above(const Scene& scene, int node, SceneTree& tree) {
 }
 
 /// Whether the node or one above it has this switched off.
-bool off_above(const ViewState& state, int node, bool NodeEdit::*flag) {
+bool off_above(const ViewState& state, int node, bool stage::NodeEdit::*flag) {
   const auto& nodes = state.scene->scene.nodes;
   for (int at = nodes[static_cast<std::size_t>(node)].parent; at >= 0;
        at = nodes[static_cast<std::size_t>(at)].parent) {
@@ -68,7 +68,7 @@ bool off_above(const ViewState& state, int node, bool NodeEdit::*flag) {
   return false;
 }
 
-void flag_box(Ui& ui, int node, bool NodeEdit::*flag, const char* name, const char* help) {
+void flag_box(Ui& ui, int node, bool stage::NodeEdit::*flag, const char* name, const char* help) {
   auto& edits = ui.state.edits.nodes;
   const auto found = edits.find(node);
   bool on = found == edits.end() || found->second.*flag;
@@ -76,7 +76,7 @@ void flag_box(Ui& ui, int node, bool NodeEdit::*flag, const char* name, const ch
   if (off) ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 0.4f);
   if (ImGui::Checkbox(fmt::format("##{}", name).c_str(), &on)) {
     edits[node].*flag = on;
-    if (edits[node] == NodeEdit{}) edits.erase(node);
+    if (edits[node] == stage::NodeEdit{}) edits.erase(node);
   }
   if (off) ImGui::PopStyleVar();
   ui.mark(fmt::format("node.{}.{}", node, name));
@@ -88,9 +88,9 @@ void draw_row(Ui& ui, SceneTree& tree, const TreeRow& row) {
   const bool is_parent = !tree.children[static_cast<std::size_t>(row.node + 1)].empty();
   char& open = tree.open[static_cast<std::size_t>(row.node)];
   ImGui::PushID(row.node);
-  flag_box(ui, row.node, &NodeEdit::visible, "visible", "Visible, with all below it.");
+  flag_box(ui, row.node, &stage::NodeEdit::visible, "visible", "Visible, with all below it.");
   ImGui::SameLine(0, ui.px(3));
-  flag_box(ui, row.node, &NodeEdit::casts, "casts", "Casts shadows, with all below it.");
+  flag_box(ui, row.node, &stage::NodeEdit::casts, "casts", "Casts shadows, with all below it.");
   ImGui::SameLine(0, ui.px(6) + ui.px(12) * static_cast<float>(row.depth));
   if (is_parent && tree.filter[0] == 0) {
     if (ImGui::ArrowButton("##open", open != 0 ? ImGuiDir_Down : ImGuiDir_Right)) open = open == 0;
