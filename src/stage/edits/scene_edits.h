@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <tenebra/expected.h>
 #include "stage/edits/light_edits.h"
 
 namespace tenebra::stage {
