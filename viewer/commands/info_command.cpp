@@ -14,6 +14,7 @@
 #include "options/method_options.h"
 #include "options/option_values.h"
 #include "options/scene_options.h"
+#include "stage/left_out.h"
 #include "stage/looks.h"
 #include "shared/scene_choice.h"
 #include "shared/scene_plan.h"
