@@ -14,6 +14,7 @@
 #include "bench/common/memory_meter.h"
 #include "bench/common/scene_renderer.h"
 #include "bench/trade/trade_needs.h"
+#include "stage/additions.h"
 
 namespace tenebra::bench {
 namespace {

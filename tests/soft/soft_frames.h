@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 #include "soft/soft_case.h"
+#include "stage/left_out.h"
 #include "support/bart.h"
 
 namespace tenebra::testing {

@@ -5,22 +5,22 @@
 #include <numbers>
 #include <string_view>
 
-#include "stage/additions.h"
 #include "base/fail.h"
 #include "commands/command.h"
 #include "commands/gl_survey.h"
-#include "stage/cutout/cutout.h"
 #include "options/memory_option.h"
 #include "options/method_options.h"
 #include "options/option_values.h"
 #include "options/scene_options.h"
-#include "stage/left_out.h"
-#include "stage/looks.h"
 #include "shared/scene_choice.h"
 #include "shared/scene_plan.h"
 #include "shared/scene_summary.h"
 #include "shell/console.h"
 #include "shell/memory_limit.h"
+#include "stage/additions.h"
+#include "stage/cutout/cutout.h"
+#include "stage/left_out.h"
+#include "stage/looks.h"
 
 namespace tenebra::viewer {
 namespace {
