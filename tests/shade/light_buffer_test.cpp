@@ -48,7 +48,7 @@ glm::dvec3 expected_light(const Light& light, const WorldLight& placed, const Ma
 
 /// The light buffer of a view in which every pixel sees triangle `id`.
 io::ImageF buffer_of(const FrameGeometry& frame, const ViewRays& view, int w, int h, std::uint32_t id,
-                       const std::vector<Material>& materials, const shade::DrawnLight& light) {
+                     const std::vector<Material>& materials, const shade::DrawnLight& light) {
   const std::vector<std::uint32_t> ids(static_cast<std::size_t>(w * h), id);
   const shade::SurfaceTable surfaces(materials);
   io::ImageF image;
@@ -220,7 +220,7 @@ TEST_F(LightBufferTest, LightOnTheSurfaceStaysFinite) {
 
 TEST_F(LightBufferTest, BackgroundStaysDark) {
   const io::ImageF image = buffer_of({}, perspective, buffer_width, buffer_height, background_id, {},
-                                       {make_light(LightType::directional), {}});
+                                     {make_light(LightType::directional), {}});
   EXPECT_EQ(image.pixels, std::vector<float>(3u * buffer_width * buffer_height, 0.0f));
 }
 
