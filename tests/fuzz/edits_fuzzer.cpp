@@ -8,6 +8,7 @@
 namespace {
 
 using namespace tenebra::viewer;
+namespace stage = tenebra::stage;
 
 tenebra::Expected<void> parse(const std::string& option, const std::string& value, stage::SceneEdits& edits) {
   if (option == "--set-light") return parse_light_edit(value, edits.lights);
