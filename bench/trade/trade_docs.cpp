@@ -42,8 +42,8 @@ bool is_ours(const TradePoint& p) {
   return !p.family.starts_with("Embree") && !p.family.starts_with("shafts") && p.family != "shadow map";
 }
 
-/// A family of several settings, none of them on a front, is one row; of Embree and shadow maps the settings
-/// on no front are left out.
+/// A family of several settings, none of them on a front or measured on few views alone, is one row; of
+/// Embree and shadow maps the settings on no front are left out.
 std::vector<SettingRow> setting_rows(const std::vector<const TradeTable*>& tables) {
   struct Setting {
     const TradePoint* point;
@@ -68,7 +68,11 @@ std::vector<SettingRow> setting_rows(const std::vector<const TradeTable*>& table
     const bool some_front = std::any_of(settings.begin(), settings.end(),
                                         [&](const Setting& other) { return alike(other) && other.front; });
     const bool several = std::count_if(settings.begin(), settings.end(), alike) > (is_ours(*s.point) ? 2 : 1);
-    if (!some_front && several) {
+    const bool rare =
+        2 * std::count_if(tables.begin(), tables.end(),
+                          [&](const TradeTable* table) { return table->find(s.point->name()) != nullptr; }) <
+        std::ssize(tables);
+    if (several && (!some_front || rare)) {
       const auto listed = [&](const SettingRow& row) { return row.family && row.name == s.point->family; };
       if (std::none_of(rows.begin(), rows.end(), listed)) rows.push_back({s.point->family, true});
     } else if (s.front || is_ours(*s.point) || !some_front) {
@@ -208,8 +212,9 @@ std::string head() {
          "is both as fast and as exact and better in one of the two. Plots and the sentences beside them "
          "are of one thread; in the plots the front is dashed and its settings are ringed. Embree's rays "
          "are given for comparison; they are not a setting of Tenebra. Of them and of shadow maps only "
-         "settings on a front are listed; a family none of whose settings is on a front stands in one row, "
-         "from its least to its most. RMS: root of the mean square. "
+         "settings on a front are listed; a family none of whose settings is on a front, or that was "
+         "measured on "
+         "few views, stands in one row, from its least to its most. RMS: root of the mean square. "
          "Penumbra, shaft and other words: [vocabulary](architecture.md#vocabulary).\n\n";
 }
 

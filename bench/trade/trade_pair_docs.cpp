@@ -91,14 +91,16 @@ std::string needs_section(const std::string& measured_by, const std::vector<Need
       fmt::format("## {}\n\n{}", needs_title, measured_by) +
       "The time of stages that do only what the frame needs, over what they would take if they did all of "
       "it, on one thread/on all, least and most of the views; and what is left on one of them. Where both "
-      "were run, both gave the same bits, or the row says that they did not; rows without times only count. "
+      "were run, both gave the same bits, or the row says that they did not. What is only counted is left to "
+      "`--csv`. "
       "(Behind shafts only the dark points are compared: at the others rays are as noisy as without.) Tests "
       "check the same: `tests/render/needs_test.cpp`.\n\n"
       "| stage | time over that of all of it | what is left |\n"
       "|---|---|---|\n";
   for (const StageRows<NeedRow>& stage : by_stage(needs)) {
-    text += fmt::format("| {} | {} | {}: {}{} |\n", stage.first().stage,
-                        ranges(ratios(stage, &NeedRow::with_ms, &NeedRow::all_ms)), stage.first().view,
+    const auto times = ratios(stage, &NeedRow::with_ms, &NeedRow::all_ms);
+    if (times.empty() && stage.all_same()) continue;
+    text += fmt::format("| {} | {} | {}: {}{} |\n", stage.first().stage, ranges(times), stage.first().view,
                         stage.first().shrunk, stage.all_same() ? "" : " (NOT the same bits)");
   }
   return text +
