@@ -11,7 +11,7 @@ namespace tenebra::io {
 
 /// 128 bits of XXH3 in hexadecimal.
 std::string text_hash(std::string_view text);
-/// The same of a regular file's bytes, however many. Fails as open_input_file().
+/// The hash of a regular file's bytes, however many. Fails as open_input_file().
 Expected<std::string> file_hash(const std::filesystem::path& path);
 
 }  // namespace tenebra::io

@@ -31,7 +31,7 @@ Expected<void> write_png(const std::filesystem::path& path, const Image8& image)
 Expected<Image8> read_png(const std::filesystem::path& path);
 /// Reads a Radiance picture (.hdr): three linear channels. Refuses what is none and more than 2^26 pixels.
 Expected<ImageF> read_hdr(const std::filesystem::path& path);
-/// The same bytes that write_png writes.
+/// The bytes that write_png writes.
 Expected<std::string> encode_png(const Image8& image);
 
 struct ImageSize {

@@ -22,9 +22,9 @@ struct PngHeader {
 /// ("found ... where ..."), without the file's name.
 Expected<PngHeader> check_png_structure(std::string_view bytes);
 
-/// Of a PNG whose structure is right: fails with a phrase if its compressed bytes are damaged or inflate to
-/// more than the rows of its header (and 64 KiB): a decoder that does not ask first would take memory without
-/// end. Takes no more memory than these rows and the file.
+/// Checks a PNG whose structure is right: fails with a phrase if its compressed bytes are damaged or inflate
+/// to more than the rows of its header (and 64 KiB): a decoder that does not ask first would take memory
+/// without end. Takes no more memory than these rows and the file.
 Expected<void> check_png_pixels(std::string_view bytes);
 
 }  // namespace tenebra::io

@@ -71,7 +71,7 @@ public:
                                glm::dot(along, place.middle) + glm::dot(glm::abs(along), place.half) + shift);
     }
   }
-  /// Of the pyramid, in the view's right, up, back from the centre; at most so near that the nearest is
+  /// The pyramid's apex, in the view's right, up, back from the centre; at most so near that the nearest is
   /// shown fifteen times as large as the farthest.
   dvec3 apex(double least_m) const {
     constexpr double least_part = 0.07;
@@ -130,7 +130,7 @@ public:
     return framing;
   }
 
-  /// Of what is seen from there, the share that shows its back.
+  /// The share of what is seen from there that shows its back.
   double backs_from(const Direction& direction) const {
     const Framing framing = placed({direction, 0, usual_aspect});
     SmallView view = empty_view(framing);

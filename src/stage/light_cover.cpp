@@ -8,7 +8,8 @@
 namespace tenebra::stage {
 namespace {
 
-/// Of the vertices of all other casters: BART's city has a frame about its sky, and a moon above it.
+/// The share of the other casters' vertices that a sky has to hide: BART's city has a frame about its sky,
+/// and a moon above it.
 constexpr double nearly_all = 0.99;
 constexpr std::size_t first_look = 16;          // corners: most meshes hide next to nothing
 constexpr std::size_t most_tests = 50'000'000;  // of a way to a light with a triangle: well below a second

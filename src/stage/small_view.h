@@ -33,9 +33,9 @@ public:
   void add(const glm::dvec3& middle, const glm::dvec2& half_m);
 
   std::span<const Pixel> pixels() const { return pixels_; }
-  /// Of all pixels, those that hold something; `other`: and nothing in that picture of the same size.
+  /// The share of all pixels that hold something; `other`: and nothing in that picture of the same size.
   double share(const SmallView* other = nullptr) const;
-  /// Of the pixels that hold something, those that show a back.
+  /// The share of the pixels that hold something that shows a back.
   double share_of_backs() const;
 
 private:

@@ -10,7 +10,7 @@
 
 namespace tenebra::stage {
 
-/// Of a grid edge: no crossing or gate comes nearer to its ends.
+/// The part of a grid edge at each end in which no crossing or gate lies.
 constexpr double corner_gap = 1.0 / 256;
 
 /// Where the level line crosses a grid line, and how far a simplified line may pass beside it. A line that

@@ -84,7 +84,8 @@ MaskMaterial::Sampled MaskMaterial::sample(const MaskedTriangle& masked) const {
   return sampled;
 }
 
-/// Of the texture's alpha, where the other factors are the same all over the triangle.
+/// The texture's alpha at which the material cuts, where the other factors are the same all over the
+/// triangle.
 double MaskMaterial::threshold(const Sampled& sampled) const {
   return full * material_.alpha_cutoff / sampled.factor[0];
 }

@@ -41,7 +41,7 @@ private:
     return without_doubles(out);
   }
 
-  /// Of two points in one place the side of the second counts.
+  /// The ring with one point for each place: of two points in one place the side of the second counts.
   static Ring without_doubles(const Ring& ring) {
     Ring out;
     for (std::size_t i = 0; i < ring.size(); ++i)

@@ -31,7 +31,7 @@ using Ring = std::vector<RingPoint>;
 /// Triangle and rectangle, counter-clockwise: the triangle, cut at one side of the rectangle after the other.
 Ring cut_ring(const PlaneTriangle& triangle, const Rectangle& leaf);
 
-/// The same with the corners of neighbouring leaves on this one's sides. `bounds`: of place_leaf.
+/// A ring with the corners of neighbouring leaves on this one's sides. `bounds`: of place_leaf.
 Ring with_leaf_corners(const Ring& ring, const PlaneTriangle& triangle, const Rectangle& bounds,
                        const Leaf& leaf, const Tile& tile);
 

@@ -33,7 +33,7 @@ struct MaterialEdit {
   bool operator==(const MaterialEdit&) const = default;
 };
 
-/// Of a node and all below it.
+/// What is changed of a node and all below it.
 struct NodeEdit {
   bool visible = true;  ///< false hides what the scene shows
   bool casts = true;    ///< false keeps it from casting shadows
