@@ -13,6 +13,8 @@
 #   package   makes the packages, asks lintian, and draws a picture with them in a bare root; needs root as roots does
 #   api       makes the reference of the public headers with doxygen: what is not documented is an error
 #   site      makes the documentation site in build/site and checks its links: a warning is an error
+#   pairs     draws small frames by options in random combinations for PAIRS_MINUTES [60], with the address and
+#             undefined-behaviour sanitizers
 #   faults    lets every call of the system and many allocations fail, kills renders, stops each stage
 #   slurm     renders on three Slurm nodes, one of which dies while another is cut off; needs root and Slurm
 #   viewer    gives the window random input for VIEWER_FRAMES [500] frames, with the address and undefined-behaviour sanitizers
@@ -26,7 +28,7 @@
 # JOBS=N: how many jobs at once [all cores].
 set -uo pipefail
 cd "$(dirname "$0")/.."
-parts=(lto-odr clang tidy roots debug asan tsan report three package api site faults slurm viewer arm64 same-bytes figures fuzz)
+parts=(lto-odr clang tidy roots debug asan tsan report three package api site pairs faults slurm viewer arm64 same-bytes figures fuzz)
 jobs=${JOBS:-$(nproc)}
 
 has() {
@@ -165,6 +167,14 @@ run_viewer() {
     cmake --build --preset asan -j "$jobs" --target tenebra &&
     LSAN_OPTIONS="suppressions=$PWD/cmake/sanitizers/lsan.supp:print_suppressions=0" \
       python3 tests/random_hands.py build-asan/bin/tenebra scenes/city.glb "${VIEWER_FRAMES:-500}" "${VIEWER_SEED:-1}" -- --size 160x120
+}
+
+run_pairs() {
+  tools/setup.sh --tests && cmake --preset asan > /dev/null &&
+    cmake --build --preset asan -j "$jobs" --target tests_render &&
+    TENEBRA_RANDOM_SECONDS=$((60 * ${PAIRS_MINUTES:-60})) MESA_SHADER_CACHE_DISABLE=1 \
+      LSAN_OPTIONS="suppressions=$PWD/cmake/sanitizers/lsan.supp:print_suppressions=0" \
+      build-asan/bin/tests_render --gtest_filter=OptionPairs.DrawTheSameInRandomCombinations
 }
 
 # Without ccache, which would take the second folder's objects from the first. As packages are built: folders as one file.

@@ -62,13 +62,14 @@ const VisiblePoints& Renderer::State::lit_points(const FrameInput& input, const 
 Expected<void> Renderer::State::light_samples(const FrameInput& input, const std::vector<DrawnLight>& lights,
                                               const RenderSettings& settings, LightKinds kinds,
                                               LitSamples& samples, const StopFlag* stop) {
-  const bool coloured = kinds != LightKinds::masks && !input.geometry.see_through.empty();
+  const bool shadows = settings.shadows != ShadowMode::none;
+  const bool coloured = shadows && kinds != LightKinds::masks && !input.geometry.see_through.empty();
   samples.begin(lights.size(), coloured ? samples.points.triangles.size() : 0);
   const bool without_areas = kinds == LightKinds::points || kinds == LightKinds::masks;
   const VisiblePoints& lit_at = lit_points(input, settings, samples);
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (stop_requested(stop)) return base::fail("stopped");
-    if (settings.shadows == ShadowMode::none) continue;
+    if (!shadows) continue;
     if (lights[i].area ? without_areas : kinds == LightKinds::areas) continue;
     if (lights[i].area) {
       const AreaTask task{input, settings, lit_at, samples.normals, nullptr, stop};
