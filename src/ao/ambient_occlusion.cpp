@@ -202,7 +202,7 @@ Expected<void> AmbientOcclusion::State::from_rays(const ao::ReceiverSet& set, co
   timings.ao_build_ms += watch.lap_ms();
   stats.points = ao::cast_receivers(set, rays, *reference, values, ray_room, stop);
   stats.rays_cast = stats.points * static_cast<std::uint64_t>(rays.rays());
-  return stop_requested(stop) ? Expected<void>(base::fail("stopped")) : Expected<void>();
+  return stop_requested(stop) ? Expected<void>(base::stopped()) : Expected<void>();
 }
 
 /// Occlusion by other bodies can be blurred, that of a body by itself cannot: with a downscale only the
@@ -220,7 +220,7 @@ Expected<void> AmbientOcclusion::State::run(const ao::AoFrame& frame, const AoCo
     }
     if (done && part != ao::AoPart::own && !see_through.empty())
       see_through.darken(set, rays, kernels, values, stats, stop);
-    return done && stop_requested(stop) ? Expected<void>(base::fail("stopped")) : done;
+    return done && stop_requested(stop) ? Expected<void>(base::stopped()) : done;
   };
   const auto length = static_cast<float>(reach);
   if (config.mode == AoMode::adaptive) {
@@ -265,7 +265,7 @@ Expected<void> AmbientOcclusion::compute(const Scene& scene, const FrameGeometry
   const VisiblePoints& points = points::with_positions(seen, triangle_view(geometry), s.positions);
   base::Stopwatch watch;
   s.find(scene, geometry, config, stop);
-  if (stop_requested(stop)) return base::fail("stopped");
+  if (stop_requested(stop)) return base::stopped();
   const double found_ms = s.timings.ao_build_ms = watch.lap_ms();
 
   if (auto done = s.run({geometry, points, normals, s.objects}, config, out, progress, stop); !done)

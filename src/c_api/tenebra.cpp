@@ -65,7 +65,7 @@ tenebra_status guarded(Handle* handle, const Body& body) noexcept {
     const Expected<void> done = body();
     if (done) return TENEBRA_OK;
     handle->error = done.error().message;
-    return handle->error == "stopped" ? TENEBRA_STOPPED : TENEBRA_FAILED;
+    return is_stop(done) ? TENEBRA_STOPPED : TENEBRA_FAILED;
   } catch (const std::bad_alloc&) {
     handle->error.assign("no memory");  // short: held in place
   } catch (const std::exception& thrown) {
@@ -128,7 +128,7 @@ tenebra_status ask(tenebra_tracer* tracer, const tenebra_geometry* geometry, con
     if (!asked) return tl::unexpected(asked.error());
     Expected<void> done;
     with_threads(asked->options.threads, [&] { done = call(*asked); });
-    if (done && tracer->stop.requested()) return base::fail("stopped");
+    if (done && tracer->stop.requested()) return base::stopped();
     return done;
   });
   if (status == TENEBRA_STOPPED) tracer->stop.reset();

@@ -50,7 +50,8 @@ Expected<Context> Context::create(ContextChoice choice, ContextOptions options) 
   if (egl) return egl;
   auto osmesa = finish(create_osmesa_backend(options), options);
   if (osmesa) return osmesa;
-  return base::fail("no OpenGL context: {}; {}", egl.error().message, osmesa.error().message);
+  return base::fail(ErrorKind::device, "no OpenGL context: {}; {}", egl.error().message,
+                    osmesa.error().message);
 }
 
 Expected<Context> Context::adopt(FunctionLoader loader) {
@@ -64,7 +65,7 @@ Context::~Context() = default;
 
 Expected<void> Context::make_current() {
   if (!backend_->make_current())
-    return base::fail("OpenGL context {}: it cannot be made current", kind_name());
+    return base::fail(ErrorKind::device, "OpenGL context {}: it cannot be made current", kind_name());
   return load_functions(*backend_);
 }
 

@@ -41,7 +41,7 @@ bool find(void* library, const char* name, Pointer& function) {
 Expected<Egl> load_egl() {
   // Never unloaded: its threads and its exit handlers outlive the contexts.
   void* const handle = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-  if (handle == nullptr) return base::fail("EGL: found no libEGL.so.1");
+  if (handle == nullptr) return base::fail(ErrorKind::device, "EGL: found no libEGL.so.1");
   Egl egl;
   const bool complete =
       find(handle, "eglBindAPI", egl.bind_api) && find(handle, "eglChooseConfig", egl.choose_config) &&
@@ -52,7 +52,7 @@ Expected<Egl> load_egl() {
       find(handle, "eglGetProcAddress", egl.function) && find(handle, "eglInitialize", egl.initialize) &&
       find(handle, "eglMakeCurrent", egl.make_current) && find(handle, "eglQueryString", egl.string);
   dlclose(handle);
-  if (!complete) return base::fail("EGL: found a library older than EGL 1.5");
+  if (!complete) return base::fail(ErrorKind::device, "EGL: found a library older than EGL 1.5");
   return egl;
 }
 
@@ -155,17 +155,19 @@ EGLContext create_context(const Egl& egl, EGLDisplay display, ContextOptions opt
 
 BackendResult create_on(const Egl& egl, const Platform& platform, ContextOptions options) {
   const EGLDisplay display = egl.platform_display(platform.platform, platform.native, nullptr);
-  if (display == EGL_NO_DISPLAY) return base::fail("{}: no such platform", platform.name);
+  if (display == EGL_NO_DISPLAY) return base::fail(ErrorKind::device, "{}: no such platform", platform.name);
   if (!egl.initialize(display, nullptr, nullptr)) {
-    return base::fail("{}: not initialised (EGL error {:#x})", platform.name, egl.error());
+    return base::fail(ErrorKind::device, "{}: not initialised (EGL error {:#x})", platform.name, egl.error());
   }
   const EGLContext context = create_context(egl, display, options);
   if (context == EGL_NO_CONTEXT) {
-    return base::fail("{}: no OpenGL 4.5 core context (EGL error {:#x})", platform.name, egl.error());
+    return base::fail(ErrorKind::device, "{}: no OpenGL 4.5 core context (EGL error {:#x})", platform.name,
+                      egl.error());
   }
   auto backend = std::make_unique<EglBackend>(egl, display, context);
   if (!backend->make_current()) {
-    return base::fail("{}: no context without a surface (EGL error {:#x})", platform.name, egl.error());
+    return base::fail(ErrorKind::device, "{}: no context without a surface (EGL error {:#x})", platform.name,
+                      egl.error());
   }
   return backend;
 }
@@ -181,13 +183,15 @@ bool draws_by_software(const Egl& egl) {
 
 BackendResult create_on_device(const Egl& egl, int device, ContextOptions options) {
   const std::vector<Platform> devices = devices_of(egl);
-  if (devices.empty()) return base::fail("EGL lists no devices; found device {} asked for", device);
+  if (devices.empty())
+    return base::fail(ErrorKind::device, "EGL lists no devices; found device {} asked for", device);
   if (static_cast<std::size_t>(device) >= devices.size()) {
-    return base::fail("EGL: found device {} asked for, expected 0 to {}; tenebra info --gl lists them",
+    return base::fail(ErrorKind::device,
+                      "EGL: found device {} asked for, expected 0 to {}; tenebra info --gl lists them",
                       device, devices.size() - 1);
   }
   auto backend = create_on(egl, devices[static_cast<std::size_t>(device)], options);
-  if (!backend) return base::fail("EGL {}", backend.error().message);
+  if (!backend) return base::fail(ErrorKind::device, "EGL {}", backend.error().message);
   return backend;
 }
 
@@ -212,7 +216,7 @@ BackendResult create_egl_backend(ContextOptions options, std::optional<int> devi
     return draws_by_software(*egl) ? Draws::by_software : Draws::by_hardware;
   });
   if (chosen) return std::move(made[*chosen]);
-  return base::fail("EGL offers no OpenGL 4.5 core context without a window ({})", lacks);
+  return base::fail(ErrorKind::device, "EGL offers no OpenGL 4.5 core context without a window ({})", lacks);
 }
 
 std::vector<EglOffer> egl_offers() {

@@ -50,11 +50,13 @@ int fill_table(FunctionLoader loader) {
 
 Expected<void> load_functions(Context::Backend& backend) {
   const int version = fill_table(backend.loader());
-  if (version == 0) return base::fail("OpenGL context {}: found no OpenGL functions", backend.kind_name());
+  if (version == 0)
+    return base::fail(ErrorKind::device, "OpenGL context {}: found no OpenGL functions", backend.kind_name());
   backend.description = fmt::format("{}, OpenGL {}", gl_string(GL_RENDERER), gl_string(GL_VERSION));
   if (version >= least_version) return {};
-  return base::fail("OpenGL context {} ({}): found version {}.{}, expected 4.5 or newer", backend.kind_name(),
-                    backend.description, GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version));
+  return base::fail(ErrorKind::device, "OpenGL context {} ({}): found version {}.{}, expected 4.5 or newer",
+                    backend.kind_name(), backend.description, GLAD_VERSION_MAJOR(version),
+                    GLAD_VERSION_MINOR(version));
 }
 
 void collect_debug_messages(Context::Backend& backend) {

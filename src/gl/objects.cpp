@@ -60,7 +60,7 @@ Expected<void> Buffer::upload(std::span<const std::byte> bytes) {
     glNamedBufferData(name(), static_cast<GLsizeiptr>(bytes.size()), bytes.data(), GL_STREAM_DRAW);
     if (glGetError() != GL_NO_ERROR) {
       capacity_ = 0;
-      return base::fail("OpenGL: found no memory for a buffer of {} bytes", bytes.size());
+      return base::fail(ErrorKind::device, "OpenGL: found no memory for a buffer of {} bytes", bytes.size());
     }
     capacity_ = bytes.size();
   } else if (!bytes.empty()) {
@@ -86,7 +86,8 @@ Expected<Texture> Texture::create(PixelFormat format, int width, int height) {
   Texture texture(name);
   glTextureStorage2D(name, 1, formats_of(format).internal, width, height);
   if (glGetError() != GL_NO_ERROR)
-    return base::fail("OpenGL: found no memory for a target of {}x{} pixels", width, height);
+    return base::fail(ErrorKind::device, "OpenGL: found no memory for a target of {}x{} pixels", width,
+                      height);
   // Without mipmaps a texture is complete only with a filter that wants none.
   glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
@@ -126,7 +127,8 @@ Expected<void> Readback::start(const Texture& texture) {
     glGetError();  // an older error is not ours
     glNamedBufferData(buffer_.name(), static_cast<GLsizeiptr>(bytes), nullptr, GL_STREAM_READ);
     held_ = glGetError() == GL_NO_ERROR ? bytes : 0;
-    if (held_ == 0) return base::fail("OpenGL: found no memory for a buffer of {} bytes", bytes);
+    if (held_ == 0)
+      return base::fail(ErrorKind::device, "OpenGL: found no memory for a buffer of {} bytes", bytes);
   }
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer_.name());
@@ -146,7 +148,8 @@ Expected<void> Readback::finish(std::span<std::byte> pixels) {
     state = glClientWaitSync(static_cast<GLsync>(fence_), GL_SYNC_FLUSH_COMMANDS_BIT, second_ns);
   }
   glDeleteSync(static_cast<GLsync>(std::exchange(fence_, nullptr)));
-  if (state == GL_WAIT_FAILED) return base::fail("OpenGL: found a lost context while reading back pixels");
+  if (state == GL_WAIT_FAILED)
+    return base::fail(ErrorKind::device, "OpenGL: found a lost context while reading back pixels");
   glGetNamedBufferSubData(buffer_.name(), 0, static_cast<GLsizeiptr>(pixels.size()), pixels.data());
   return {};
 }
@@ -165,7 +168,7 @@ Expected<Framebuffer> Framebuffer::create(std::initializer_list<const Texture*> 
   glNamedFramebufferDrawBuffers(name, static_cast<GLsizei>(buffers.size()), buffers.data());
   const GLenum status = glCheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE)
-    return base::fail("OpenGL: found an incomplete framebuffer (status {:#x})", status);
+    return base::fail(ErrorKind::device, "OpenGL: found an incomplete framebuffer (status {:#x})", status);
   return framebuffer;
 }
 

@@ -39,7 +39,9 @@ Expected<Library> load_library() {
     handle = dlopen(file, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
     if (handle) break;
   }
-  if (!handle) return base::fail("OSMesa: found none of libOSMesa.so.8, libOSMesa.so.6, libOSMesa.so");
+  if (!handle)
+    return base::fail(ErrorKind::device,
+                      "OSMesa: found none of libOSMesa.so.8, libOSMesa.so.6, libOSMesa.so");
   Library library;
   const bool complete = find(handle, "OSMesaCreateContextAttribs", library.create) &&
                         find(handle, "OSMesaDestroyContext", library.destroy) &&
@@ -79,7 +81,7 @@ BackendResult create_osmesa_backend(ContextOptions) {
   const int wants[] = {
       osmesa_format, gl_rgba, osmesa_profile, osmesa_core_profile, osmesa_major, 4, osmesa_minor, 5, 0};
   const OSMesaContext context = library->create(wants, nullptr);
-  if (!context) return base::fail("OSMesa offers no OpenGL 4.5 core context");
+  if (!context) return base::fail(ErrorKind::device, "OSMesa offers no OpenGL 4.5 core context");
   return std::make_unique<OsmesaBackend>(*library, context);
 }
 

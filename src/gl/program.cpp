@@ -39,8 +39,8 @@ Expected<Shader> compile(std::string_view program, GLenum stage, std::vector<std
   glGetShaderiv(shader.name(), GL_INFO_LOG_LENGTH, &length);
   std::string log(static_cast<std::size_t>(length), '\0');
   glGetShaderInfoLog(shader.name(), length, nullptr, log.data());
-  return base::fail("shader {}.{} does not compile: {}", program, stage == GL_VERTEX_SHADER ? "vert" : "frag",
-                    one_line(std::move(log)));
+  return base::fail(ErrorKind::device, "shader {}.{} does not compile: {}", program,
+                    stage == GL_VERTEX_SHADER ? "vert" : "frag", one_line(std::move(log)));
 }
 
 }  // namespace
@@ -67,7 +67,7 @@ Expected<Program> Program::build(std::string_view name, std::vector<std::string_
   glGetProgramiv(program.name(), GL_INFO_LOG_LENGTH, &length);
   std::string log(static_cast<std::size_t>(length), '\0');
   glGetProgramInfoLog(program.name(), length, nullptr, log.data());
-  return base::fail("shaders of {} do not link: {}", name, one_line(std::move(log)));
+  return base::fail(ErrorKind::device, "shaders of {} do not link: {}", name, one_line(std::move(log)));
 }
 
 }  // namespace tenebra::gl

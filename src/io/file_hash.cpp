@@ -29,7 +29,7 @@ Expected<std::string> file_hash(const std::filesystem::path& path) {
   std::vector<char> part(std::size_t{1} << 20);
   for (;;) {
     const auto count = file->read(part.data(), part.size());
-    if (!count) return base::fail("{}: {}", path.string(), count.error().message);
+    if (!count) return base::fail(ErrorKind::file, "{}: {}", path.string(), count.error().message);
     if (*count == 0) return hexadecimal(XXH3_128bits_digest(&state));
     XXH3_128bits_update(&state, part.data(), *count);
   }

@@ -15,7 +15,7 @@ Expected<std::size_t> InputFile::read(char* to, std::size_t most) const {
   for (;;) {
     const ssize_t count = ::read(file.number(), to, most);
     if (count >= 0) return static_cast<std::size_t>(count);
-    if (errno != EINTR) return base::fail("{}", std::generic_category().message(errno));
+    if (errno != EINTR) return base::fail(ErrorKind::file, "{}", std::generic_category().message(errno));
   }
 }
 
@@ -24,7 +24,7 @@ Expected<InputFile> open_input_file(const std::filesystem::path& path) {
       Descriptor(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC))};  // a pipe is not waited for
   struct stat found {};
   if (!out.file || ::fstat(out.file.number(), &found) != 0)
-    return base::fail("{}: {}", path.string(), std::generic_category().message(errno));
+    return base::fail(ErrorKind::file, "{}: {}", path.string(), std::generic_category().message(errno));
   if (!S_ISREG(found.st_mode))
     return base::fail("{}: found something that is no file, expected one", path.string());
   out.size = static_cast<std::size_t>(found.st_size);
@@ -39,8 +39,9 @@ Expected<std::string> read_file(const std::filesystem::path& path, std::size_t m
   std::string bytes(file->size, '\0');
   for (std::size_t at = 0; at < bytes.size();) {
     const auto count = file->read(bytes.data() + at, bytes.size() - at);
-    if (!count) return base::fail("{}: {}", path.string(), count.error().message);
-    if (*count == 0) return base::fail("{}: found {} bytes, expected {}", path.string(), at, bytes.size());
+    if (!count) return base::fail(ErrorKind::file, "{}: {}", path.string(), count.error().message);
+    if (*count == 0)
+      return base::fail(ErrorKind::file, "{}: found {} bytes, expected {}", path.string(), at, bytes.size());
     at += *count;
   }
   return bytes;

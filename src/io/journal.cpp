@@ -30,7 +30,8 @@ bool lock(int descriptor, int kind) {
 }  // namespace
 
 tl::unexpected<Error> Journal::system_failure(int error) const {
-  return base::fail("cannot write {}: {}", path_.string(), std::generic_category().message(error));
+  return base::fail(ErrorKind::file, "cannot write {}: {}", path_.string(),
+                    std::generic_category().message(error));
 }
 
 Expected<Journal> Journal::open(const fs::path& path, Writers writers) {
@@ -49,7 +50,7 @@ Expected<Journal> Journal::open(const fs::path& path, Writers writers) {
       Descriptor(::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NONBLOCK | O_CLOEXEC, 0666));
   if (!journal.file_) return journal.system_failure(errno);
   if (!journal.take_lock(writers))
-    return base::fail("cannot write {}: another process is writing it", path.string());
+    return base::fail(ErrorKind::file, "cannot write {}: another process is writing it", path.string());
   if (::fstat(journal.file_.number(), &found) != 0) return journal.system_failure(errno);
   journal.size_ = static_cast<std::size_t>(found.st_size);
   return journal;

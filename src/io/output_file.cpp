@@ -81,7 +81,7 @@ void remove_stale_temporaries(const fs::path& folder) {
 }
 
 tl::unexpected<Error> OutputFile::system_failure(int error) const {
-  return base::fail("cannot write {}: {}", path_.string(), reason(error));
+  return base::fail(ErrorKind::file, "cannot write {}: {}", path_.string(), reason(error));
 }
 
 Expected<OutputFile> OutputFile::create(const fs::path& path) {

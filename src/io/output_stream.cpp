@@ -31,14 +31,15 @@ const char* kind_of(mode_t mode) {
 
 Expected<Descriptor> open_stream(const std::filesystem::path& path, const struct stat& found) {
   const auto failure = [&](int error) {
-    return base::fail("cannot write {}: {}", path.string(), std::generic_category().message(error));
+    return base::fail(ErrorKind::file, "cannot write {}: {}", path.string(),
+                      std::generic_category().message(error));
   };
   if (S_ISDIR(found.st_mode)) return failure(EISDIR);
   if (Descriptor stream = standard_stream(found)) return stream;
   if (S_ISREG(found.st_mode)) return Descriptor();
   if (!S_ISCHR(found.st_mode))
-    return base::fail("cannot write {}: found {}, expected a file, /dev/null or /dev/stdout", path.string(),
-                      kind_of(found.st_mode));
+    return base::fail(ErrorKind::file, "cannot write {}: found {}, expected a file, /dev/null or /dev/stdout",
+                      path.string(), kind_of(found.st_mode));
   Descriptor device(::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
   if (!device) return failure(errno);
   ::fcntl(device.number(), F_SETFL, 0);  // from here on it may take its time

@@ -41,7 +41,7 @@ Expected<void> write_to_stdout(std::string_view bytes, const StopFlag* stop) {
     const int found = ::poll(&ready, 1, look_at_flag_ms);
     if (found < 0 && errno != EINTR) return stream_failure(errno);
     if (found <= 0) {
-      if (stop_requested(stop) && Clock::now() - taken > reader_patience) return base::fail("stopped");
+      if (stop_requested(stop) && Clock::now() - taken > reader_patience) return base::stopped();
       continue;
     }
     const ssize_t written = ::write(STDOUT_FILENO, bytes.data(), std::min(bytes.size(), at_once));

@@ -47,8 +47,7 @@ Expected<void> PointTracer::ambient_occlusion(const Geometry& geometry, const Qu
   const bool some_apart = query::need_stand_ins(points);
 
   return query::in_portions(points, stop, progress, [&](const query::Portion& portion) -> Expected<void> {
-    if (!s.stand_ins.follow(geometry.data_, some_apart ? portion.count() : 0, stop))
-      return base::fail("stopped");
+    if (!s.stand_ins.follow(geometry.data_, some_apart ? portion.count() : 0, stop)) return base::stopped();
     const TriangleView triangles = s.triangles(true);
     s.begin(points, portion);
     s.normals.assign(portion.pixels(), glm::vec3(0.0f));

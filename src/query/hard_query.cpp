@@ -85,8 +85,7 @@ Expected<void> PointTracer::hard_mask(const Geometry& geometry, const QueryPoint
   const bool some_apart = query::need_stand_ins(points);
 
   return query::in_portions(points, stop, progress, [&](const query::Portion& portion) -> Expected<void> {
-    if (some_apart && !s.stand_ins.follow(geometry.data_, portion.count(), stop))
-      return base::fail("stopped");
+    if (some_apart && !s.stand_ins.follow(geometry.data_, portion.count(), stop)) return base::stopped();
     const TriangleView triangles = s.triangles(some_apart);
     s.begin(points, portion);
     query::each_run(portion, [&](std::size_t first, std::size_t last) {
@@ -107,7 +106,7 @@ Expected<void> PointTracer::hard_mask(const Geometry& geometry, const QueryPoint
       }
     });
     if (!s.hard.trace_shadow_mask(s.seen, view, triangles, light, config, s.mask, stop))
-      return base::fail("stopped");
+      return base::stopped();
     query::each_point(portion,
                       [&](std::size_t i, std::size_t pixel) { mask[portion.first() + i] = s.mask[pixel]; });
     return {};

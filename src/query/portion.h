@@ -63,7 +63,7 @@ Expected<void> in_portions(const QueryPoints& points, const StopFlag* stop, cons
   const std::size_t count = points.positions.size();
   for (std::size_t first = 0; first < count;) {
     const Portion portion(points, first);
-    if (stop_requested(stop)) return base::fail("stopped");
+    if (stop_requested(stop)) return base::stopped();
     if (Expected<void> done = answer(portion); !done) return done;
     first += portion.count();
     if (progress) progress(static_cast<double>(first) / static_cast<double>(count));

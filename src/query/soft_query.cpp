@@ -81,8 +81,7 @@ Expected<void> PointTracer::soft_visibility(const Geometry& geometry, const Quer
   find_eyes(light, s.light_eyes);
 
   return query::in_portions(points, stop, progress, [&](const query::Portion& portion) -> Expected<void> {
-    if (some_apart && !s.stand_ins.follow(geometry.data_, portion.count(), stop))
-      return base::fail("stopped");
+    if (some_apart && !s.stand_ins.follow(geometry.data_, portion.count(), stop)) return base::stopped();
     const TriangleView triangles = s.triangles(some_apart);
     s.begin(points, portion);
     s.eyes.assign(portion.count(), no_eye);
@@ -109,8 +108,10 @@ Expected<void> PointTracer::soft_visibility(const Geometry& geometry, const Quer
         const std::uint32_t triangle = own == no_triangle ? s.stand_ins.id(i) : own;
         s.seen.triangles[pixel] = s.eyes[i] == eye ? triangle : no_triangle;
       });
-      if (!s.soft.trace(s.seen, s.normals, eyes[k], triangles, light, config, s.visible, stop))
-        return base::fail("{}", s.soft.refusal().empty() ? "stopped" : s.soft.refusal().c_str());
+      if (!s.soft.trace(s.seen, s.normals, eyes[k], triangles, light, config, s.visible, stop)) {
+        if (s.soft.refusal().empty()) return base::stopped();
+        return base::fail(ErrorKind::memory, "{}", s.soft.refusal());
+      }
       query::each_point(portion, [&](std::size_t i, std::size_t pixel) {
         if (s.eyes[i] != eye && !(k == 0 && s.eyes[i] == no_eye)) return;
         if (!visible_fraction.empty())

@@ -75,18 +75,20 @@ void draw_layer(const GeometryBuffers& geometry, const GBuffer& gbuffer) {
 
 Expected<void> check_picture_size(int width, int height) {
   if (width < 1 || height < 1)
-    return base::fail("picture: found size {}x{}, expected at least 1x1", width, height);
+    return base::fail(ErrorKind::device, "picture: found size {}x{}, expected at least 1x1", width, height);
   GLint texture = 0;
   std::array<GLint, 2> viewport{};
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
   glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
   const int max_width = std::min(texture, viewport[0]), max_height = std::min(texture, viewport[1]);
   if (width > max_width || height > max_height) {
-    return base::fail("picture: found size {}x{}, expected at most {}x{} (the limit of this OpenGL)", width,
+    return base::fail(ErrorKind::device,
+                      "picture: found size {}x{}, expected at most {}x{} (the limit of this OpenGL)", width,
                       height, max_width, max_height);
   }
   if (std::int64_t{width} * height > max_pixels) {
-    return base::fail("picture: found size {}x{}, expected at most {} pixels", width, height, max_pixels);
+    return base::fail(ErrorKind::device, "picture: found size {}x{}, expected at most {} pixels", width,
+                      height, max_pixels);
   }
   return {};
 }

@@ -69,8 +69,8 @@ GeometryBuffers::GeometryBuffers()
 
 Expected<void> GeometryBuffers::upload(const FrameGeometry& geometry) {
   if (geometry.triangles.size() > max_triangles) {
-    return base::fail("OpenGL: found {} triangles, expected at most {}", geometry.triangles.size(),
-                      max_triangles);
+    return base::fail(ErrorKind::device, "OpenGL: found {} triangles, expected at most {}",
+                      geometry.triangles.size(), max_triangles);
   }
   triangle_count_ = geometry.triangles.size();
   bounds_ = visibility::bounds_of(geometry.positions);

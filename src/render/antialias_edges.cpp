@@ -50,7 +50,7 @@ Expected<void> Renderer::State::trace_own(const FrameInput& input, const std::ve
                                           const RenderSettings& settings, const StopFlag* stop) {
   const std::size_t count = edges.own.size();
   if (count == 0) return {};
-  if (stop_requested(stop)) return base::fail("stopped");
+  if (stop_requested(stop)) return base::stopped();
   place_own(edges.own, own_ids, own_places);
   points::compute_sample_points(own_ids, own_places, count, input.view, triangle_view(input.geometry),
                                 own_hard.points);

@@ -81,7 +81,7 @@ Expected<void> Renderer::State::layer_packed(const FrameInput& input, const std:
   const shade::PixelSamples behind_them{samples.grid.width(), samples.grid.height(), samples.ids, factors,
                                         at_samples.openness};
   if (!eye_tint.trace(at_samples.points, layer_at_samples, input.view, triangles, through, passes, stop))
-    return base::fail("stopped");
+    return base::stopped();
   const auto drawn =
       layer_colors({triangles, behind_them, samples.places, layer_at_samples, through, passes}, *shading);
   if (!drawn) return tl::unexpected(drawn.error());
@@ -147,7 +147,7 @@ Expected<void> Renderer::State::add_samples(const FrameInput& input, const std::
   };
   const auto edges = std::span(chosen.edges);
   for (std::size_t i = 0; i < shared; i += at_once) {
-    if (stop_requested(stop)) return base::fail("stopped");
+    if (stop_requested(stop)) return base::stopped();
     if (auto added =
             add_edges(input, lights, settings, frame, part(edges.first(shared), i), i, place, means, stop);
         !added)
@@ -156,7 +156,7 @@ Expected<void> Renderer::State::add_samples(const FrameInput& input, const std::
   if (auto added = add_shared(input, lights, settings, frame, edges.subspan(shared), shared, stop); !added)
     return added;
   for (std::size_t i = 0; i < chosen.contrasts.size(); i += at_once) {
-    if (stop_requested(stop)) return base::fail("stopped");
+    if (stop_requested(stop)) return base::stopped();
     if (auto added = add_contrasts(settings, frame, part(chosen.contrasts, i), chosen.edges.size() + i);
         !added)
       return added;

@@ -53,7 +53,8 @@ Expected<void> Renderer::State::trace_visible_part(const AreaTask& task, const D
                                   settings.soft_points, of_points, out, task.stop)
              : soft.trace(task.at, task.normals, task.input.view, triangles, *light.area, settings.soft, out,
                           task.stop);
-  if (!done) return base::fail("{}", soft.refusal().empty() ? "stopped" : soft.refusal().c_str());
+  if (!done && !soft.refusal().empty()) return base::fail(ErrorKind::memory, "{}", soft.refusal());
+  if (!done) return base::stopped();
   groups_changed |= settings.soft_points == 0 && soft.stats().groups_changed > 0;
   if (task.counts == nullptr) return {};
   if (settings.soft_points > 0) {

@@ -126,7 +126,7 @@ Expected<void> FrameRaster::draw_one_by_one(const FrameGeometry& geometry, const
   out.open_all();
   FrameTimings unused;
   for (std::size_t k = 0; k < places.size(); ++k) {
-    if (stop_requested(stop)) return base::fail("stopped");
+    if (stop_requested(stop)) return base::stopped();
     if (auto drawn = draw(geometry, shifted_view(view, places[k]), wish, one_place_, unused); !drawn)
       return drawn;
     out.set_place(k, one_place_.ids, one_place_.layer);

@@ -118,7 +118,7 @@ Expected<void> Renderer::State::trace_hard(const FrameInput& input, const DrawnL
   bool done = false;
   done = hard.trace_shadow_mask(points, input.view, triangles, shadow_light(light.light, light.placed),
                                 config, hard_mask, stop);
-  if (!done) return base::fail("stopped");
+  if (!done) return base::stopped();
   result.methods.push_back({light.number, hard.ran()});
   result.stats += hard.stats();
   add_shadow_stages(result.timings, hard.timings());
@@ -164,7 +164,7 @@ Expected<void> Renderer::State::trace_lights(const FrameInput& input, const std:
   if (irradiance.size() < lights.size()) irradiance.resize(lights.size());
   tint_has_surfaces = false;
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    if (stop_requested(stop)) return base::fail("stopped");
+    if (stop_requested(stop)) return base::stopped();
     if (lights[i].area) {
       if (auto done = trace_soft(input, lights[i], settings, result, irradiance[i], stop); !done) return done;
     } else if (settings.shadows != ShadowMode::none) {

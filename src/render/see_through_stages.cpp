@@ -36,7 +36,7 @@ Expected<void> Renderer::State::trace_tint(const FrameInput& input, const DrawnL
                                  config, out, stop)
                     : tint.trace(at, input.view, triangles, surfaces, shadow_light(light.light, light.placed),
                                  mask, config, out, stop);
-  return done ? Expected<void>() : Expected<void>(base::fail("stopped"));
+  return done ? Expected<void>() : Expected<void>(base::stopped());
 }
 
 const VisiblePoints& Renderer::State::lit_points(const FrameInput& input, const RenderSettings& settings,
@@ -68,7 +68,7 @@ Expected<void> Renderer::State::light_samples(const FrameInput& input, const std
   const bool without_areas = kinds == LightKinds::points || kinds == LightKinds::masks;
   const VisiblePoints& lit_at = lit_points(input, settings, samples);
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    if (stop_requested(stop)) return base::fail("stopped");
+    if (stop_requested(stop)) return base::stopped();
     if (!shadows) continue;
     if (lights[i].area ? without_areas : kinds == LightKinds::areas) continue;
     if (lights[i].area) {
@@ -85,7 +85,7 @@ Expected<void> Renderer::State::light_samples(const FrameInput& input, const std
     done = hard.trace_shadow_mask(lit_at, input.view, traced_triangles(input, lights[i], settings),
                                   shadow_light(lights[i].light, lights[i].placed), config, samples.masks[i],
                                   stop);
-    if (!done) return base::fail("stopped");
+    if (!done) return base::stopped();
     if (!coloured) continue;
     TintMask found;
     RenderSettings exact = settings;
@@ -132,7 +132,7 @@ Expected<void> Renderer::State::draw_see_through(const FrameInput& input,
                            PointLayout::rows_and_tiles);
   }
   if (!eye_tint.trace(there ? points : behind, layer, input.view, triangles, surfaces, passes, stop))
-    return base::fail("stopped");
+    return base::stopped();
   const auto drawn = layer_colors({triangles, opaque, {}, layer, surfaces, passes}, *shading);
   if (!drawn) return tl::unexpected(drawn.error());
   if (auto done = shading->replace_centres(passes.pixels, *drawn, result.image); !done) return done;

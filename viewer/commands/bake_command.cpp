@@ -320,7 +320,7 @@ Expected<int> bake_scene(const BakeOptions& options) {
   stop.be_orderly();
   const auto done = options.target == BakeTarget::vertices ? to_vertices(*baking, lit, options, stop.flag())
                                                            : to_lightmap(*baking, lit, options, stop.flag());
-  if (!done && done.error().message == "stopped") {
+  if (is_stop(done)) {
     print_error("tenebra: stopped before the light was baked, nothing is written\n");
     return stop.exit_code();
   }

@@ -124,8 +124,6 @@ private:
   // Results that are being written, the one being computed and the one that waits for room.
   static constexpr std::size_t most_waiting = 2, results = most_waiting + 2;
 
-  static bool is_stop(const Expected<void>& done) { return !done && done.error().message == "stopped"; }
-
   /// Draws the frame with settings_, from its time to the picture; what that took is in `result`.
   Expected<void> draw_once(render::Renderer& renderer, const PlannedFrame& planned, Progress& progress,
                            const StopFlag& stop, render::FrameResult& result) {

@@ -245,7 +245,7 @@ Expected<int> trade(TradeOptions& options) {
   }
   stop.be_orderly();
   const auto found = search(options, *plan, stop.flag());
-  if (!found && found.error().message == "stopped") {
+  if (is_stop(found)) {
     print_error("tenebra: stopped before all settings were tried\n");
     return stop.exit_code();
   }

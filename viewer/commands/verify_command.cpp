@@ -115,7 +115,7 @@ public:
     Progress progress(static_cast<int>(plan_.frames.size()), options_.render.quiet);
     for (const PlannedFrame& frame : plan_.frames) {
       const auto checked = check_frame(renderer, frame, stop);
-      if (!checked && checked.error().message != "stopped") return checked;
+      if (!checked && !is_stop(checked)) return checked;
       if (stop.flag().requested()) break;
       progress.show(static_cast<int>(++verification_.frames));
     }

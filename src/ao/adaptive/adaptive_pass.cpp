@@ -196,7 +196,7 @@ Expected<double> AdaptiveOcclusion::compute(const AdaptiveScene& scene, const Ad
   AdaptivePass pass(scene, settings, stop, *state_);
   pass.settle();
   const double error = pass.meet_error();
-  if (pass.stopped()) return base::fail("stopped");
+  if (pass.stopped()) return base::stopped();
   std::copy(pass.values().begin(), pass.values().end(), out.begin());
   stats.rays_cast += pass.looks().rays_cast();
   stats.points += pass.looks().looks();

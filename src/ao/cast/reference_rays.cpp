@@ -71,7 +71,7 @@ Expected<ReferenceRays> ReferenceRays::create(const TriangleView& triangles, con
     return base::fail("the ray caster has no memory for {} triangles", triangles.triangles.size());
   rtcSetSceneProgressMonitorFunction(state->scene, goes_on, const_cast<StopFlag*>(stop));  // only read
   if (!stop_requested(stop)) rtcCommitScene(state->scene);
-  if (stop_requested(stop)) return base::fail("stopped");
+  if (stop_requested(stop)) return base::stopped();
   return ReferenceRays(std::move(state));
 }
 

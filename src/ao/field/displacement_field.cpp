@@ -163,7 +163,7 @@ Expected<DisplacementField> build_field(std::span<const glm::vec3> positions,
         if (field.bits == 1) store_bits(field, p, row);
       }
     });
-    if (stop_requested(stop)) return base::fail("stopped");
+    if (stop_requested(stop)) return base::stopped();
   }
   if (progress) progress(1);
   return field;

@@ -86,7 +86,7 @@ Expected<const DisplacementField*> ShapeFields::make(int shape, const TriangleBv
   if (!make_room(kept)) return nullptr;
   const ObjectShape& of = (*shapes_)[static_cast<std::size_t>(shape)];
   const std::vector<glm::uvec3> triangles = casting_triangles(of, stop);
-  if (stop_requested(stop)) return base::fail("stopped");
+  if (stop_requested(stop)) return base::stopped();
   ++built_;
   auto built = build_field(of.positions, triangles, casters, settings_, progress, stop);
   if (!built) {

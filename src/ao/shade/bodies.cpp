@@ -133,7 +133,7 @@ Expected<void> Bodies::fill(std::span<const MissingSample> missing, const AoKern
                  (static_cast<double>(first) + done * static_cast<double>(of_body.size())) /
                      static_cast<double>(missing.size()));
     };
-    if (!bodies_[body].samples->fill(of_body, kernels, report, stop)) return base::fail("stopped");
+    if (!bodies_[body].samples->fill(of_body, kernels, report, stop)) return base::stopped();
   }
   return {};
 }

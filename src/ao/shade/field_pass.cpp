@@ -41,7 +41,7 @@ Expected<void> FieldPass::supply(std::span<const GroupReport> reports, const AoP
   stats.rays_cast += (bodies.filled() - before) * SurfaceRays::rays;
   base::sort_unique(without_samples);
   bodies.make(without_samples, occluders, stop);
-  if (stop_requested(stop)) return base::fail("stopped");
+  if (stop_requested(stop)) return base::stopped();
   base::sort_unique(missing);
   return occluders.build(missing, progress);
 }
@@ -72,7 +72,7 @@ Expected<void> FieldPass::run(const ReceiverSet& set, AoPart part, std::vector<f
                                                                              reports[at]);
     });
     watch.lap_ms();
-    if (stop_requested(stop)) return base::fail("stopped");
+    if (stop_requested(stop)) return base::stopped();
     room.left.clear();
     for (std::size_t i = 0; i < pending.size(); ++i) {
       const GroupReport& report = reports[i];

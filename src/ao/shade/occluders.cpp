@@ -184,7 +184,7 @@ Expected<void> Occluders::build(std::span<const int> missing, const AoProgress& 
     } else if (auto built = build_object(static_cast<std::size_t>(occluder), progress); !built) {
       return built;
     }
-    if (stop_requested(stop_)) return base::fail("stopped");
+    if (stop_requested(stop_)) return base::stopped();
   }
   return {};
 }
@@ -232,7 +232,7 @@ void Occluders::load_fields(std::span<const int> occluders) {
 Expected<void> Occluders::build_object(std::size_t index, const AoProgress& progress) {
   Placed& placed = placed_[index];
   const TriangleBvh* tree = casters(placed.shape);
-  if (tree == nullptr) return base::fail("stopped");
+  if (tree == nullptr) return base::stopped();
   if (!wants_field(placed.shape, *tree)) return {};
   const FieldProgress report = [&](double done) {
     if (progress) progress("displacement fields", done);
