@@ -166,7 +166,7 @@ private:
 
   Framing placed(const Candidate& candidate) const {
     Framing framing;
-    framing.basis = view_basis(-candidate.direction.unit(), {0, 1, 0});
+    framing.basis = scene::view_basis(-candidate.direction.unit(), {0, 1, 0});
     framing.aspect = candidate.aspect.value_or(1);
     for (int i = 0; i < 3 && !candidate.aspect; ++i)
       framing.aspect = static_cast<float>(

@@ -39,7 +39,7 @@ Side side_of(const Subject& subject, const dvec3& outward) {
   const dvec3 half = 0.5 * (subject.high - subject.low);
   const double far_m = 20 * subject.radius_m(), deep = 2 * glm::dot(half, glm::abs(outward));
   Lens lens;
-  lens.basis = view_basis(-outward, {0, 1, 0});
+  lens.basis = scene::view_basis(-outward, {0, 1, 0});
   lens.eye = subject.centre() + (0.5 * deep + far_m) * outward;
   for (int c = 0; c < 2; ++c) lens.tan[c] = glm::dot(half, glm::abs(lens.basis[c])) / far_m;
   lens.near_m = 0.5 * far_m;
@@ -68,8 +68,10 @@ bool shows_nothing_outside(const Subject& subject) {
 double closedness(const Subject& subject, const dvec3& eye) {
   double closed = 0;
   for (const dvec3& axis : axes) {
-    const Lens lens{
-        .eye = eye, .basis = view_basis(axis, {0, 1, 0}), .tan = {1, 1}, .near_m = 1e-4 * subject.radius_m()};
+    const Lens lens{.eye = eye,
+                    .basis = scene::view_basis(axis, {0, 1, 0}),
+                    .tan = {1, 1},
+                    .near_m = 1e-4 * subject.radius_m()};
     const SmallView view = view_of(subject, lens, 16, 16);
     closed += view.share() * (1 - view.share_of_backs()) / axes.size();
   }
@@ -106,7 +108,7 @@ std::vector<std::pair<double, Framing>> views_inside(const Subject& subject, std
       if (x == 0 && z == 0) continue;
       Framing framing;
       framing.eye = place_in(subject, {x, eye_height, z});
-      framing.basis = view_basis(place_in(subject, {0, target_height, 0}) - framing.eye, {0, 1, 0});
+      framing.basis = scene::view_basis(place_in(subject, {0, target_height, 0}) - framing.eye, {0, 1, 0});
       framing.vertical_fov_rad = 1.0f;
       framing.aspect = aspect.value_or(4 / 3.0f);
       framing.near_m = static_cast<float>(1e-4 * subject.radius_m());
