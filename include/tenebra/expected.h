@@ -32,7 +32,7 @@ inline bool is_stop(const Error& error) {
 template <class T>
 using Expected = tl::expected<T, Error>;
 
-/// The same of a call's result.
+/// Whether a call ended because somebody asked for it.
 template <class T>
 bool is_stop(const Expected<T>& result) {
   return !result && is_stop(result.error());
