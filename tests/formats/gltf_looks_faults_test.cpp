@@ -105,6 +105,14 @@ TEST(GltfLooks, AReferenceToNoTextureCostsTheTextureAlone) {
   expect_warning(coordinates.scene(), "found TEXCOORD_2");
 }
 
+TEST(GltfLooks, ATextureWithoutCoordinatesIsSaid) {
+  LooksFile file;
+  file.base_texture(file.texture());
+  EXPECT_TRUE(file.scene().warnings.empty());
+  file.attributes().erase("TEXCOORD_0");
+  expect_warning(file.scene(), "meshes[0]: found 1 primitives without the texture coordinates");
+}
+
 TEST(GltfLooks, WebpIsReadOrWhatStandsBesideIt) {
   LooksFile file;
   file.base_texture(file.texture());

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "formats/gltf/model.h"
 
@@ -44,12 +45,23 @@ void add_colors(Asset& asset, int accessor, const std::string& place, std::size_
         fmt::format("{}.attributes.COLOR_0: found {} values outside 0 to 1, cut to that.", place, outside));
 }
 
+constexpr const char* sets[] = {"TEXCOORD_0", "TEXCOORD_1"};
+
 }  // namespace
+
+bool lacks_coordinates(const Asset& asset, const tinygltf::Primitive& primitive) {
+  if (primitive.material < 0) return false;
+  const Material& m = asset.scene.materials[static_cast<std::size_t>(primitive.material)];
+  const TextureMap* maps[] = {&m.base_color_map, &m.emissive_map, &m.metallic_roughness_map, &m.specular_map,
+                              &m.transmission_map};
+  return std::any_of(std::begin(maps), std::end(maps), [&](const TextureMap* map) {
+    return *map && !primitive.attributes.contains(sets[map->uv_set]);
+  });
+}
 
 void add_coordinates(Asset& asset, const tinygltf::Primitive& primitive, const std::string& place,
                      std::size_t count, Mesh& mesh) {
   if (count == 0) return;
-  static constexpr const char* sets[] = {"TEXCOORD_0", "TEXCOORD_1"};
   for (std::size_t s = 0; s < 2; ++s) {
     const int accessor = accessor_of(asset, primitive, sets[s], place, {TINYGLTF_TYPE_VEC2});
     if (accessor >= 0) add_set(asset, accessor, count, mesh, mesh.texture_coordinates[s]);

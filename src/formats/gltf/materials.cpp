@@ -14,10 +14,10 @@ struct MaterialReader {
   std::vector<std::string>& warnings;
   Material material = default_material();
 
-  /// `value` cut to 0 to 1, with a warning where the rules of the format have not given one (extensions).
+  /// `value` cut to 0 to 1, with a warning.
   float share(double value, std::string_view name) {
     const double cut = std::clamp(value, 0.0, 1.0);
-    if (cut != value && name.starts_with("extensions"))
+    if (cut != value)
       warnings.push_back(
           fmt::format("{}.{}: found {}, expected 0 to 1; {} is used.", place, name, value, cut));
     return static_cast<float>(cut);

@@ -13,6 +13,7 @@ struct MeshBuilder {
   std::size_t index;
   Mesh mesh;
   std::size_t non_unit = 0, lines = 0, no_positions = 0, mended_weights = 0, repeated_joints = 0;
+  std::size_t without_coordinates = 0;
   bool ignored_sets = false, any_normals = false, any_joints = false, all_joints = true;
 
   std::string place(std::size_t primitive) const {
@@ -205,6 +206,7 @@ struct MeshBuilder {
     mesh.positions.insert(mesh.positions.end(), positions.begin(), positions.end());
     add_normals(primitive, p);
     add_coordinates(asset, primitive, place(p), positions.size(), mesh);
+    without_coordinates += lacks_coordinates(asset, primitive) ? 1 : 0;
     add_joints(primitive, p);
     add_targets(primitive, p, positions.size());
     add_triangles(corners, mode, base, material_of(primitive));
@@ -240,6 +242,10 @@ struct MeshBuilder {
     if (repeated_joints > 0)
       warnings.push_back(
           fmt::format("{}: found {} vertices with the same joint twice; added up.", here, repeated_joints));
+    if (without_coordinates > 0)
+      warnings.push_back(
+          fmt::format("{}: found {} primitives without the texture coordinates that their materials name.",
+                      here, without_coordinates));
     if (ignored_sets)
       warnings.push_back(
           fmt::format("{}: found more than eight joints a vertex; the first eight are used.", here));

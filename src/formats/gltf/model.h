@@ -89,6 +89,8 @@ Influences read_influences(Asset& asset, const tinygltf::Primitive& primitive, c
 /// The bytes of a data URI. Throws ImportFailure naming `place`.
 std::string decode_data_uri(const std::string& uri, const std::string& place);
 
+/// Whether a texture of its material needs coordinates that `primitive` does not have: it shows one colour.
+bool lacks_coordinates(const Asset& asset, const tinygltf::Primitive& primitive);
 /// Texture coordinates and colours of `primitive`, the last `count` vertices of `mesh`. What cannot be read
 /// is a warning.
 void add_coordinates(Asset& asset, const tinygltf::Primitive& primitive, const std::string& place,

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "formats/gltf_check/rules.h"
 #include "formats/gltf_check/schema_check.h"
 #include "formats/gltf_check/unused.h"
 #include "formats/import_failure.h"
@@ -79,7 +78,6 @@ std::string check_gltf_schema(std::string_view json, std::vector<std::string>& w
   } catch (const Json::out_of_range&) {
     refuse("JSON: found a number beyond the range of double, expected a smaller one");
   }
-  check_gltf_rules(root, warnings);
   name_unused_looks(root, warnings, unused);
   schema::check_fields(root, warnings);
   blank_unknown_accessors(root, warnings);
