@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <string>
 
-#include "base/large_pages.h"
 #include "bench/common/bench_command.h"
 
 namespace {
@@ -15,7 +14,6 @@ int refuse(const std::string& sentence) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  tenebra::base::restart_with_large_pages(argv);
   CLI::App program("Measures Tenebra and its peers side by side.");
   program.require_subcommand(1);
   tenebra::bench::Run run;

@@ -8,7 +8,6 @@
 #include <exception>
 #include <string>
 
-#include "base/large_pages.h"
 #include "commands/command.h"
 #include "shell/console.h"
 #include "shell/exit_codes.h"
@@ -80,7 +79,6 @@ int parse_and_run(CLI::App& program, Run& run, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  tenebra::base::restart_with_large_pages(argv);
   // Both are reported by the write that fails, in a sentence, instead of ending the program in the middle of
   // a file.
   static_cast<void>(std::signal(SIGPIPE, SIG_IGN));
