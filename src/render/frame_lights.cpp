@@ -72,7 +72,7 @@ void add_emissive(const Scene& scene, const FrameInput& input, std::vector<Drawn
 
 }  // namespace
 
-bool has_areas(const std::vector<DrawnLight>& lights) {
+bool has_areas(std::span<const DrawnLight> lights) {
   return std::any_of(lights.begin(), lights.end(),
                      [](const DrawnLight& light) { return light.area.has_value(); });
 }

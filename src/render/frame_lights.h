@@ -1,6 +1,7 @@
 // The lights that a frame draws, each with the shadows it gets.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,7 @@ namespace tenebra::render {
 using shade::DrawnLight;  // the one type of a light in a frame
 
 /// Whether one of them has an area.
-bool has_areas(const std::vector<DrawnLight>& lights);
+bool has_areas(std::span<const DrawnLight> lights);
 
 /// Whether points behind the polygon may see light: not from a spot light whose cone is a half-space or less.
 bool shines_behind(const DrawnLight& light);

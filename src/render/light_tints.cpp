@@ -1,26 +1,30 @@
 #include "render/light_tints.h"
 
+#include <algorithm>
+
 namespace tenebra::render {
 
-void LightTint::begin(std::size_t pixels) {
-  constexpr std::size_t run = shade::TintFactors::run;
-  if (factors_.size() != pixels) {
-    factors_.assign(pixels, glm::vec3(1.0f));
-    coloured_.assign((pixels + run - 1) / run, 0);
-    set_.clear();
+constexpr std::size_t run = shade::TintFactors::run;
+
+void LightTint::begin(std::size_t samples) {
+  mask.pixels.clear();
+  mask.factors.clear();
+  if (factors_.size() != samples) {
+    factors_.assign(samples, glm::vec3(1.0f));
+    coloured_.assign((samples + run - 1) / run, 0);
   }
-  for (const std::uint32_t pixel : set_) {
-    factors_[pixel] = glm::vec3(1.0f);
-    coloured_[pixel / run] = 0;
+  for (std::size_t i = 0; i < coloured_.size(); ++i) {
+    if (coloured_[i] == 0) continue;
+    coloured_[i] = 0;
+    std::fill_n(factors_.begin() + static_cast<std::ptrdiff_t>(i * run), std::min(run, samples - i * run),
+                glm::vec3(1.0f));
   }
-  set_.clear();
 }
 
-void LightTint::set(const TintMask& mask) {
-  set_ = mask.pixels;
+void LightTint::spread() {
   for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
     factors_[mask.pixels[i]] = mask.factors[i];
-    coloured_[mask.pixels[i] / shade::TintFactors::run] = 1;
+    coloured_[mask.pixels[i] / run] = 1;
   }
 }
 

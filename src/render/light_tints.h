@@ -1,4 +1,5 @@
-// The tints of a frame's lights, one factor for each pixel, as shading reads them: white where none is.
+// The tint of a light at samples: as the tracer lists it, and as shading reads it, one factor for each
+// sample.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +12,18 @@
 namespace tenebra::render {
 
 /// Kept from frame to frame: only what was coloured is made white again.
-class LightTint {
-public:
-  void begin(std::size_t pixels);
-  void set(const TintMask& mask);
+struct LightTint {
+  TintMask mask;  ///< the samples that are not white
+
+  /// Makes all of this many samples white.
+  void begin(std::size_t samples);
+  /// Colours those of `mask`.
+  void spread();
   shade::TintFactors factors() const { return {factors_, coloured_}; }
 
 private:
   std::vector<glm::vec3> factors_;
-  std::vector<std::uint8_t> coloured_;
-  std::vector<std::uint32_t> set_;  ///< pixels that are not white
+  std::vector<std::uint8_t> coloured_;  ///< as TintFactors has it
 };
 
 }  // namespace tenebra::render

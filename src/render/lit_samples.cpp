@@ -4,18 +4,25 @@
 
 namespace tenebra::render {
 
-void LitSamples::begin(std::size_t lights, std::size_t tinted) {
-  masks.assign(lights, {});
-  irradiance.assign(lights, {});
-  visible_fraction.assign(lights, {});
+void LitSamples::begin(std::size_t light_count, std::size_t tinted) {
   openness.clear();
-  tints.resize(lights);
-  for (LightTint& tint : tints) tint.begin(tinted);
+  lights.resize(light_count);
+  for (SampleLight& light : lights) {
+    light.mask.clear();
+    light.soft.visible_fraction.clear();
+    light.soft.irradiance.clear();
+    light.tint.begin(tinted);
+  }
 }
 
 std::vector<shade::LightFactors> LitSamples::factors() const {
-  std::vector<shade::LightFactors> out(masks.size());
-  for (std::size_t i = 0; i < masks.size(); ++i) out[i] = {masks[i], irradiance[i], tints[i].factors()};
+  std::vector<shade::LightFactors> out;
+  for (const SampleLight& light : lights) {
+    shade::LightFactors& to = out.emplace_back();
+    if (light.soft.irradiance.empty()) to.mask = light.mask;
+    to.irradiance = light.soft.irradiance;
+    to.tint = light.tint.factors();
+  }
   return out;
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "base/fail.h"
 #include "parallel/parallel.h"
+#include "points/sample_points.h"
 #include "points/triangle_corners.h"
 #include "texture/transmittance.h"
 #include "tint/surfaces.h"
@@ -35,26 +37,26 @@ SurfacePlace place_of(const SeeThroughSurfaces& surfaces, const TriangleView& tr
           between(surfaces.colors, glm::vec4(1.0f))};
 }
 
-Expected<std::vector<shade::ShadedSample>> shaded(const LayerPicture& picture, FrameShading& shading,
-                                                  std::span<const std::uint32_t> ids,
-                                                  std::span<const shade::LightFactors> factors,
-                                                  std::span<const float> openness,
-                                                  std::span<const std::uint32_t> pixels) {
-  const auto width = static_cast<std::uint32_t>(picture.opaque.width);
-  std::vector<std::uint32_t> own_ids;
-  std::vector<glm::vec2> places;
+/// The colours of some samples, which see these triangles.
+Expected<std::vector<shade::ShadedSample>> shaded(const shade::PixelSamples& all,
+                                                  std::span<const glm::vec2> places,
+                                                  std::span<const std::uint32_t> some,
+                                                  FrameShading& shading) {
+  const auto width = static_cast<std::uint32_t>(all.width);
+  std::vector<std::uint32_t> ids;
+  std::vector<glm::vec2> own_places;
   std::vector<float> open;
-  for (const std::uint32_t pixel : pixels) {
-    own_ids.push_back(ids[pixel]);
-    places.push_back(picture.places.empty() ? glm::vec2(static_cast<float>(pixel % width) + 0.5f,
-                                                        static_cast<float>(pixel / width) + 0.5f)
-                                            : picture.places[pixel]);
-    if (!openness.empty()) open.push_back(openness[pixel]);
+  for (const std::uint32_t i : some) {
+    ids.push_back(all.ids[i]);
+    own_places.push_back(
+        places.empty() ? glm::vec2(static_cast<float>(i % width) + 0.5f, static_cast<float>(i / width) + 0.5f)
+                       : places[i]);
+    if (!all.openness.empty()) open.push_back(all.openness[i]);
   }
-  const GatheredFactors gathered(factors, pixels);
-  const auto own = gathered.factors();
+  const GatheredFactors gathered(all.factors, some);
+  const auto factors = gathered.factors();
   std::vector<shade::ShadedSample> out;
-  if (auto done = shading.shade_samples({own_ids, places, own, open}, out); !done)
+  if (auto done = shading.shade_samples({ids, own_places, factors, open}, out); !done)
     return tl::unexpected(done.error());
   return out;
 }
@@ -90,27 +92,80 @@ bool EyeTint::trace(const VisiblePoints& opaque, const LitSamples& layer, const 
   return true;
 }
 
-Expected<std::vector<glm::vec3>> layer_colors(const LayerPicture& picture, FrameShading& shading) {
-  const std::span<const std::uint32_t> pixels = picture.passes.pixels;
-  const auto behind =
-      shaded(picture, shading, picture.opaque.ids, picture.opaque.factors, picture.opaque.openness, pixels);
+Expected<SeeThroughLayer::Colors> SeeThroughLayer::color(const Frame& frame, LitSamples& layer,
+                                                         const OpaqueSamples& opaque, Lighter& lighter,
+                                                         FrameShading& shading) {
+  const SeeThroughSurfaces surfaces = frame.see_through();
+  const TriangleView triangles = frame.triangles();
+  if (auto lit = lighter.light(frame, LightKinds::all, layer); !lit) return tl::unexpected(lit.error());
+  if (!eye_tint_.trace(opaque.points, layer, frame.input.view, triangles, surfaces, passes_, frame.stop))
+    return base::fail("stopped");
+
+  const std::span<const std::uint32_t> samples = passes_.pixels;
+  const auto factors = layer.factors();
+  const shade::PixelSamples of_layer{opaque.lit.width, opaque.lit.height, layer.points.triangles, factors,
+                                     layer.openness};
+  const auto behind = shaded(opaque.lit, opaque.places, samples, shading);
   if (!behind) return tl::unexpected(behind.error());
-  const auto before = shaded(picture, shading, picture.layer.points.triangles, picture.layer.factors(),
-                             picture.layer.openness, pixels);
+  const auto before = shaded(of_layer, opaque.places, samples, shading);
   if (!before) return tl::unexpected(before.error());
-  std::vector<glm::vec3> colors(pixels.size());
-  parallel::parallel_ranges(pixels.size(), 1024, [&](std::size_t first, std::size_t last) {
+
+  Colors out{samples, std::vector<glm::vec3>(samples.size())};
+  parallel::parallel_ranges(samples.size(), 1024, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      const std::uint32_t pixel = pixels[i], id = picture.layer.points.triangles[pixel];
-      colors[i] = (*behind)[i].color * picture.passes.factors[i];
+      const std::uint32_t sample = samples[i], id = layer.points.triangles[sample];
+      out.colors[i] = (*behind)[i].color * passes_.factors[i];
       if (id == no_triangle) continue;
-      const SurfacePlace place =
-          place_of(picture.surfaces, picture.triangles, id, picture.layer.points.positions[pixel]);
-      colors[i] += (*before)[i].color *
-                   texture::shown_share(*picture.surfaces.scene, place.material, place.uv, place.vertex);
+      const SurfacePlace place = place_of(surfaces, triangles, id, layer.points.positions[sample]);
+      out.colors[i] +=
+          (*before)[i].color * texture::shown_share(*surfaces.scene, place.material, place.uv, place.vertex);
     }
   });
-  return colors;
+  return out;
+}
+
+Expected<SeeThroughLayer::Colors> SeeThroughLayer::color(const Frame& frame,
+                                                         std::span<const std::uint32_t> layer,
+                                                         std::size_t count, const OpaqueSamples& opaque,
+                                                         Lighter& lighter, FrameShading& shading) {
+  LitSamples& before = before_samples_;
+  points::compute_sample_points(layer, opaque.places, count, frame.input.view, frame.triangles(),
+                                before.points);
+  compute_shading_normals(before.points, frame.input.geometry.normals, frame.input.view, frame.triangles(),
+                          before.normals);
+  return color(frame, before, opaque, lighter, shading);
+}
+
+const VisiblePoints& SeeThroughLayer::points_behind(const Frame& frame, const Centres& centres) {
+  const visibility::VisibleIds& seen = centres.seen;
+  const bool found = frame.has_occlusion() || frame.has_shadows();
+  if (found && frame.settings.samples == SampleSource::ids && !frame.lifts_points())
+    return centres.lit.points;
+  ids_behind_.resize(seen.ids.size());
+  parallel::parallel_ranges(ids_behind_.size(), 1 << 16, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      ids_behind_[i] = seen.layer[i] == no_triangle ? no_triangle : seen.ids[i];
+  });
+  compute_visible_points(ids_behind_, seen.width, seen.height, frame.input.view, frame.triangles(), behind_,
+                         PointLayout::rows_and_tiles);
+  return behind_;
+}
+
+Expected<void> SeeThroughLayer::draw(const Frame& frame, const Centres& centres, Lighter& lighter,
+                                     FrameShading& shading, io::Image8& picture) {
+  const visibility::VisibleIds& seen = centres.seen;
+  if (!seen.has_layer) return {};
+  if (std::all_of(seen.layer.begin(), seen.layer.end(), [](std::uint32_t id) { return id == no_triangle; }))
+    return {};
+  LitSamples& before = before_centres_;
+  compute_visible_points(seen.layer, seen.width, seen.height, frame.input.view, frame.triangles(),
+                         before.points, PointLayout::rows_and_tiles);
+  compute_shading_normals(before.points, frame.input.geometry.normals, frame.input.view, frame.triangles(),
+                          before.normals);
+  const shade::PixelSamples lit = centres.samples();
+  const auto drawn = color(frame, before, {points_behind(frame, centres), lit, {}}, lighter, shading);
+  if (!drawn) return tl::unexpected(drawn.error());
+  return shading.replace_centres(drawn->samples, drawn->colors, picture);
 }
 
 }  // namespace tenebra::render

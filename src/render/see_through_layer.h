@@ -5,9 +5,10 @@
 #include <vector>
 
 #include <tenebra/tint.h>
+#include "render/centres.h"
 #include "render/frame_shading.h"
+#include "render/lighter.h"
 #include "render/lit_samples.h"
-#include "shade/shading.h"
 
 namespace tenebra::render {
 
@@ -29,18 +30,43 @@ private:
   std::vector<std::uint8_t> crossed_;
 };
 
-/// Pixels that a see-through surface has a share in, drawn anew: what is opaque times what passes, plus what
-/// the nearest surface reflects. Surfaces behind that one let through what they let through, but what they
-/// reflect is left out.
-struct LayerPicture {
-  const TriangleView& triangles;
-  const shade::PixelSamples& opaque;
-  std::span<const glm::vec2> places;  ///< in the window, by pixel of `opaque`; empty: the pixels' centres
-  const LitSamples& layer;
-  const SeeThroughSurfaces& surfaces;
-  const TintMask& passes;
+/// Samples of what is opaque, behind a layer.
+struct OpaqueSamples {
+  const VisiblePoints& points;  ///< as the eye sees them
+  const shade::PixelSamples& lit;
+  std::span<const glm::vec2> places;  ///< of samples in the window, pixels; empty: the pixels' centres
 };
-/// Linear colours of the pixels that `passes` names, in their order.
-Expected<std::vector<glm::vec3>> layer_colors(const LayerPicture& picture, FrameShading& shading);
+
+/// The nearest see-through surface before each sample, lit and shaded as any surface, and what it leaves of
+/// the colour behind it: what is opaque times what passes, plus what the nearest surface reflects. Surfaces
+/// behind that one let through what they let through, but what they reflect is left out.
+class SeeThroughLayer {
+public:
+  /// Gives their colour to the pixels' centres that see such a surface.
+  Expected<void> draw(const Frame& frame, const Centres& centres, Lighter& lighter, FrameShading& shading,
+                      io::Image8& picture);
+
+  /// Linear colours of samples, which see triangles `layer` (no_triangle: none) before what is opaque.
+  struct Colors {
+    std::span<const std::uint32_t>
+        samples;                    ///< that a see-through surface has a share in, until the next call
+    std::vector<glm::vec3> colors;  ///< of each of them
+  };
+  Expected<Colors> color(const Frame& frame, std::span<const std::uint32_t> layer, std::size_t count,
+                         const OpaqueSamples& opaque, Lighter& lighter, FrameShading& shading);
+
+private:
+  Expected<Colors> color(const Frame& frame, LitSamples& layer, const OpaqueSamples& opaque, Lighter& lighter,
+                         FrameShading& shading);
+  /// The opaque points of the centres: those that shadows start from may be those of the depth buffer, lifted
+  /// ones, or none.
+  const VisiblePoints& points_behind(const Frame& frame, const Centres& centres);
+
+  LitSamples before_centres_, before_samples_;
+  EyeTint eye_tint_;
+  TintMask passes_;
+  std::vector<std::uint32_t> ids_behind_;
+  VisiblePoints behind_;
+};
 
 }  // namespace tenebra::render

@@ -13,13 +13,15 @@
 
 namespace tenebra::render {
 
-/// Means of visible fractions over the samples of pixels with an edge: LightMask::mean, and
+/// Means of visible fractions over the samples of pixels with an edge, LightMask::mean, and
 /// LightMask::samples, as far as the settings want them. All is added in one order, so the bits do not depend
 /// on the number of threads.
 class MaskMeans {
 public:
-  /// Works on `result`, which has the masks of the pixels' centres.
-  MaskMeans(const RenderSettings& settings, const SamplePattern& pattern, FrameResult& result);
+  /// `result` has a mask for each light that has one at the pixels' centres.
+  MaskMeans(const RenderSettings& settings, const SamplePattern& pattern, const LitSamples& centres,
+            FrameResult& result)
+      : settings_(settings), pattern_(pattern), centres_(centres), result_(result) {}
 
   /// Starts with the centres, if they count.
   void begin(std::span<const std::uint32_t> edges);
@@ -29,11 +31,12 @@ public:
   void finish();
 
 private:
-  void add(std::size_t first, std::size_t place, const SamplePicture& samples, const LitSamples& lit,
+  void add(std::size_t first, std::size_t place, const SamplePicture& samples, const SampleLight& lit,
            std::size_t light);
 
+  const RenderSettings& settings_;
   const SamplePattern& pattern_;
-  bool means_, samples_;
+  const LitSamples& centres_;
   FrameResult& result_;
   std::span<const std::uint32_t> edges_;
   std::vector<std::vector<float>> visible_;  // sums, by light and edge; or empty

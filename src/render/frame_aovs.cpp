@@ -1,12 +1,10 @@
-// Data about the visible surfaces of a frame, made from the results of its stages: ids, the light of each
-// light, and openness. The picture is made before and keeps its bits.
+#include "render/frame_aovs.h"
+
 #include <algorithm>
 #include <glm/gtc/constants.hpp>
 #include <limits>
 
 #include "parallel/parallel.h"
-#include "render/mask_colour.h"
-#include "render/renderer_state.h"
 
 namespace tenebra::render {
 namespace {
@@ -53,29 +51,31 @@ void find_numbers(const FrameGeometry& geometry, const std::vector<std::uint32_t
   });
 }
 
-std::vector<LightVisibility> visibilities(const std::vector<LightMask>& masks) {
+std::vector<LightVisibility> visibilities(const Frame& frame, const Centres& centres) {
   std::vector<LightVisibility> out;
-  for (const LightMask& mask : masks) {
-    io::ImageF& fraction = out.emplace_back(LightVisibility{mask.light, {}}).fraction;
-    fraction = {mask.mask.width, mask.mask.height, 1, std::vector<float>(mask.mask.pixels.size())};
-    for (std::size_t i = 0; i < fraction.pixels.size(); ++i) fraction.pixels[i] = visible_fraction(mask, i);
+  if (frame.settings.shadows == ShadowMode::none) return out;
+  for (std::size_t light = 0; light < frame.lights.size(); ++light) {
+    io::ImageF fraction = empty_picture(centres.seen, 1, 0.0f);
+    for (std::size_t i = 0; i < fraction.pixels.size(); ++i)
+      fraction.pixels[i] = centres.lit.lights[light].visible_at(i);
+    out.push_back({frame.lights[light].number, std::move(fraction)});
   }
   return out;
 }
 
-}  // namespace
-
-void Renderer::State::find_surfaces_seen(const FrameInput& input, const AovChoice& wanted, Aovs& out) const {
-  const TriangleView triangles = triangle_view(input.geometry);
+void find_surfaces_seen(const Frame& frame, const visibility::VisibleIds& seen, const AovChoice& wanted,
+                        Aovs& out) {
+  const ViewRays& view = frame.input.view;
+  const TriangleView triangles = frame.triangles();
   VisiblePoints at;
   std::vector<glm::vec3> facing;
-  compute_visible_points(seen.ids, seen.width, seen.height, input.view, triangles, at);
+  compute_visible_points(seen.ids, seen.width, seen.height, view, triangles, at);
   if (wanted.depth) out.depth = empty_picture(seen, 1, std::numeric_limits<float>::infinity());
   if (wanted.normal) {
-    compute_shading_normals(at, input.geometry.normals, input.view, triangles, facing);
+    compute_shading_normals(at, frame.input.geometry.normals, view, triangles, facing);
     out.normal = empty_picture(seen, 3, 0.0f);
   }
-  const glm::dvec3 axis = view_axis(input.view), eye(input.view.eye);
+  const glm::dvec3 axis = view_axis(view), eye(view.eye);
   parallel::parallel_ranges(seen.ids.size(), pixels_at_once, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       if (at.triangles[i] == no_triangle) continue;
@@ -87,51 +87,53 @@ void Renderer::State::find_surfaces_seen(const FrameInput& input, const AovChoic
 }
 
 /// What white diffuse surfaces without textures show, times pi where the lights have units.
-io::ImageF Renderer::State::irradiance_seen(const shade::Subject& subject,
-                                            const std::vector<DrawnLight>& lights,
-                                            const shade::PixelSamples& pixels) const {
+io::ImageF irradiance_seen(const Frame& frame, const shade::PixelSamples& pixels) {
   const Material white{.base_color = glm::vec3(1.0f), .model = SurfaceModel::phong};
   const shade::SurfaceTable surface(std::span(&white, 1));
-  std::vector<DrawnLight> without_units = lights;
-  for (DrawnLight& light : without_units)
+  std::vector<DrawnLight> lights(frame.lights.begin(), frame.lights.end());
+  for (DrawnLight& light : lights)
     if (light.light.falloff == Falloff::inverse_square) light.light.color *= glm::pi<float>();
-  const shade::Subject all_white{subject.geometry, subject.view, surface, subject.smooth_terminator};
-  return colors_of(all_white, {without_units, glm::vec3(0.0f)}, pixels);
+  const shade::Subject all_white{frame.input.geometry, frame.input.view, surface, frame.lifts_points()};
+  return colors_of(all_white, {lights, glm::vec3(0.0f)}, pixels);
 }
 
-/// What shows where each surface shines by itself in its base colour. The surfaces are as before afterwards.
-io::ImageF Renderer::State::albedo_seen(const FrameInput& input, const shade::PixelSamples& pixels) {
-  std::vector<Material> shining = scene.materials;
+/// What shows where each surface shines by itself in its base colour.
+io::ImageF albedo_seen(const Frame& frame, const visibility::VisibleIds& seen,
+                       shade::SurfaceTable& surfaces) {
+  const std::vector<Material>& materials = frame.scene.scene.materials;
+  std::vector<Material> shining = materials;
   for (Material& material : shining) {
     material.model = SurfaceModel::unlit;
     material.emissive = glm::vec3(0.0f);
   }
   surfaces.set_factors(shining);
-  io::ImageF out = colors_of({input.geometry, input.view, surfaces}, {{}, glm::vec3(0.0f)}, pixels);
-  surfaces.set_factors(scene.materials);
+  const shade::PixelSamples unlit{seen.width, seen.height, seen.ids, {}, {}};
+  io::ImageF out =
+      colors_of({frame.input.geometry, frame.input.view, surfaces}, {{}, glm::vec3(0.0f)}, unlit);
+  surfaces.set_factors(materials);
   return out;
 }
 
-void Renderer::State::fill_aovs(const FrameInput& input, const std::vector<DrawnLight>& lights,
-                                const RenderSettings& settings, std::span<const shade::LightFactors> factors,
-                                FrameResult& result) {
-  const AovChoice& wanted = settings.aovs;
-  Aovs& out = result.aovs;
-  out = {};
-  if (!wanted.any()) return;
-  if (wanted.ids) find_numbers(input.geometry, seen.ids, out);
-  if (wanted.openness && settings.ao.mode != AoMode::none) {
+}  // namespace
+
+Aovs find_aovs(const Frame& frame, const Centres& centres, shade::SurfaceTable& surfaces) {
+  const AovChoice& wanted = frame.settings.aovs;
+  const visibility::VisibleIds& seen = centres.seen;
+  Aovs out;
+  if (wanted.ids) find_numbers(frame.input.geometry, seen.ids, out);
+  if (wanted.openness && frame.has_occlusion()) {
     out.openness = empty_picture(seen, 1, 1.0f);
     for (std::size_t i = 0; i < seen.ids.size(); ++i)
-      if (seen.ids[i] != no_triangle) out.openness.pixels[i] = openness[i];
+      if (seen.ids[i] != no_triangle) out.openness.pixels[i] = centres.lit.openness[i];
   }
-  if (wanted.visibility) out.visibility = visibilities(result.masks);
-  const shade::PixelSamples pixels{seen.width, seen.height, seen.ids, factors, {}};
-  const shade::PixelSamples unlit{seen.width, seen.height, seen.ids, {}, {}};
-  const shade::Subject subject{input.geometry, input.view, surfaces, lifts_points(settings)};
-  if (wanted.depth || wanted.normal) find_surfaces_seen(input, wanted, out);
-  if (wanted.irradiance) out.irradiance = irradiance_seen(subject, lights, pixels);
-  if (wanted.albedo) out.albedo = albedo_seen(input, unlit);
+  if (wanted.visibility) out.visibility = visibilities(frame, centres);
+  if (wanted.depth || wanted.normal) find_surfaces_seen(frame, seen, wanted, out);
+  if (wanted.irradiance) {
+    const shade::PixelSamples open{seen.width, seen.height, seen.ids, centres.factors, {}};
+    out.irradiance = irradiance_seen(frame, open);
+  }
+  if (wanted.albedo) out.albedo = albedo_seen(frame, seen, surfaces);
+  return out;
 }
 
 }  // namespace tenebra::render

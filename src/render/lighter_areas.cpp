@@ -1,0 +1,103 @@
+// Lights with an area: one side of a polygon, or both.
+#include <fmt/core.h>
+#include <algorithm>
+
+#include "base/fail.h"
+#include "base/stopwatch.h"
+#include "render/lighter.h"
+#include "soft/light/even_emission.h"
+
+namespace tenebra::render {
+namespace {
+
+/// Writes the light of the light's back where only that is seen.
+void add_back(const VisiblePoints& points, const AreaLight& front, const SampleLight& back, SampleLight& out,
+              const LightMask& back_mask, LightMask* mask) {
+  for (std::size_t i = 0; i < points.triangles.size(); ++i) {
+    if (points.triangles[i] == no_triangle ||
+        !(glm::dot(front.normal, points.positions[i] - front.centre) < 0))
+      continue;
+    out.soft.visible_fraction[i] = std::max(out.soft.visible_fraction[i], back.soft.visible_fraction[i]);
+    out.soft.irradiance[i] = std::max(out.soft.irradiance[i], back.soft.irradiance[i]);
+    if (mask != nullptr && !mask->classes.empty()) mask->classes[i] = back_mask.classes[i];
+    if (mask != nullptr && !mask->error.pixels.empty()) mask->error.pixels[i] = back_mask.error.pixels[i];
+  }
+  TintMask& tint = out.tint.mask;
+  tint.pixels.insert(tint.pixels.end(), back.tint.mask.pixels.begin(), back.tint.mask.pixels.end());
+  tint.factors.insert(tint.factors.end(), back.tint.mask.factors.begin(), back.tint.mask.factors.end());
+}
+
+}  // namespace
+
+void Lighter::note_changed_groups(const SoftShadowConfig& config, std::vector<std::string>& notes) const {
+  if (!groups_changed_) return;
+  // A tree gets less than a third of what all have together (MemoryHold::largest_tree).
+  const bool together = config.memory_bytes && *config.memory_bytes / 4 < config.tree_bytes;
+  const std::size_t most = together ? *config.memory_bytes : config.tree_bytes;
+  notes.push_back(fmt::format(
+      "Some groups of points were clipped in place of the BSP, whose trees would have outgrown {} MB "
+      "({}). The picture is the same, and the log counts the groups; a larger --soft-memory gives "
+      "trees more.",
+      most >> 20, together ? "for all that soft shadows hold" : "each"));
+}
+
+Expected<void> Lighter::trace_visible_part(const Frame& frame, const DrawnLight& light, const LitSamples& at,
+                                           SoftMask& out, FrameResult* told) {
+  const RenderSettings& settings = frame.settings;
+  const bool by_points = settings.soft_points > 0;
+  const TriangleView triangles = traced_triangles(frame, light);
+  const HardShadowConfig of_points{.variant = settings.hard.variant, .simd = settings.hard.simd};
+  const bool done = by_points
+                        ? light_points_.trace(at.lit_at(), at.normals, frame.input.view, triangles,
+                                              *light.area, settings.soft_points, of_points, out, frame.stop)
+                        : soft_.trace(at.lit_at(), at.normals, frame.input.view, triangles, *light.area,
+                                      settings.soft, out, frame.stop);
+  if (!done) return base::fail("{}", soft_.refusal().empty() ? "stopped" : soft_.refusal().c_str());
+  groups_changed_ |= !by_points && soft_.stats().groups_changed > 0;
+  if (told == nullptr) return {};
+  if (by_points) {
+    told->stats += light_points_.stats();
+    add_shadow_stages(told->timings, light_points_.timings());
+  } else {
+    told->soft += soft_.stats();
+    add_shadow_stages(told->timings, soft_.timings());
+  }
+  return {};
+}
+
+Expected<void> Lighter::trace_side(const Frame& frame, const DrawnLight& light, const LitSamples& at,
+                                   SampleLight& out, Told told) {
+  if (auto done = trace_visible_part(frame, light, at, out.soft, told.result); !done) return done;
+  if (told.mask != nullptr && frame.settings.soft_points == 0) {
+    told.mask->classes.assign(soft_.classes().begin(), soft_.classes().end());
+    if (frame.settings.error_maps)
+      told.mask->error.pixels.assign(soft_.errors().begin(), soft_.errors().end());
+  }
+  out.tint.mask = {};
+  if (!frame.has_glass()) return {};
+  if (auto done = trace_tint(frame, light, at, out); !done) return done;
+  if (told.result != nullptr) told.result->timings.tint_ms += tint_.stats().ms;
+  return {};
+}
+
+Expected<void> Lighter::trace_area(const Frame& frame, const DrawnLight& light, const LitSamples& at,
+                                   SampleLight& out, Told told) {
+  const auto weigh = [&](const AreaLight& area, SampleLight& side) {
+    base::Stopwatch watch;
+    soft::weigh_evenly(at.lit_at(), at.normals, area, frame.settings.soft.simd, side.soft);
+    if (told.result != nullptr) told.result->timings.irradiance_ms += watch.lap_ms();
+  };
+  if (auto done = trace_side(frame, light, at, out, told); !done || !light.back) return done;
+  weigh(*light.area, out);
+  if (!shines_behind(light) || !soft::any_behind(at.lit_at(), *light.area)) return {};
+  DrawnLight turned = light;
+  turned.area = *light.back;
+  Told back = told;
+  if (told.mask != nullptr) back.mask = &behind_mask_;
+  if (auto done = trace_side(frame, turned, at, behind_, back); !done) return done;
+  weigh(*turned.area, behind_);
+  add_back(at.lit_at(), *light.area, behind_, out, behind_mask_, told.mask);
+  return {};
+}
+
+}  // namespace tenebra::render
