@@ -73,7 +73,7 @@ Expected<void> Lighter::trace_point(const Frame& frame, const DrawnLight& light,
   config.count_pixel_nodes = told.mask != nullptr && frame.settings.diagnostics;
   if (!hard_.trace_shadow_mask(at.lit_at(), frame.input.view, traced_triangles(frame, light),
                                shadow_light(light.light, light.placed), config, out.mask, frame.stop))
-    return base::fail("stopped");
+    return base::stopped();
   if (told.mask == nullptr) return {};
   told.result->methods.push_back({light.number, hard_.ran()});
   told.result->stats += hard_.stats();
@@ -98,7 +98,7 @@ Expected<void> Lighter::trace_tint(const Frame& frame, const DrawnLight& light, 
                                : tint_.trace(at.lit_at(), frame.input.view, triangles, surfaces,
                                              shadow_light(light.light, light.placed), out.mask, config,
                                              out.tint.mask, frame.stop);
-  return done ? Expected<void>() : Expected<void>(base::fail("stopped"));
+  return done ? Expected<void>() : Expected<void>(base::stopped());
 }
 
 Expected<void> Lighter::light_centres(const Frame& frame, const AoProgress& progress, LitSamples& at,
@@ -111,7 +111,7 @@ Expected<void> Lighter::light_centres(const Frame& frame, const AoProgress& prog
   }
   result.masks.resize(shadows ? frame.lights.size() : 0);
   for (std::size_t i = 0; i < result.masks.size(); ++i) {
-    if (stop_requested(frame.stop)) return base::fail("stopped");
+    if (stop_requested(frame.stop)) return base::stopped();
     const DrawnLight& light = frame.lights[i];
     SampleLight& out = at.lights[i];
     LightMask& mask = result.masks[i];
@@ -141,7 +141,7 @@ Expected<void> Lighter::light(const Frame& frame, LightKinds kinds, LitSamples& 
   at.begin(frame.lights.size(), tinted ? at.points.triangles.size() : 0);
   lift(frame, at);
   for (std::size_t i = 0; shadows && i < frame.lights.size(); ++i) {
-    if (stop_requested(frame.stop)) return base::fail("stopped");
+    if (stop_requested(frame.stop)) return base::stopped();
     const DrawnLight& light = frame.lights[i];
     if (light.area ? without_areas : kinds == LightKinds::areas) continue;
     SampleLight& out = at.lights[i];

@@ -52,7 +52,9 @@ Expected<void> Lighter::trace_visible_part(const Frame& frame, const DrawnLight&
                                               *light.area, settings.soft_points, of_points, out, frame.stop)
                         : soft_.trace(at.lit_at(), at.normals, frame.input.view, triangles, *light.area,
                                       settings.soft, out, frame.stop);
-  if (!done) return base::fail("{}", soft_.refusal().empty() ? "stopped" : soft_.refusal().c_str());
+  if (!done && !by_points && !soft_.refusal().empty())
+    return base::fail(ErrorKind::memory, "{}", soft_.refusal());
+  if (!done) return base::stopped();
   groups_changed_ |= !by_points && soft_.stats().groups_changed > 0;
   if (told == nullptr) return {};
   if (by_points) {

@@ -99,7 +99,7 @@ Expected<SeeThroughLayer::Colors> SeeThroughLayer::color(const Frame& frame, Lit
   const TriangleView triangles = frame.triangles();
   if (auto lit = lighter.light(frame, LightKinds::all, layer); !lit) return tl::unexpected(lit.error());
   if (!eye_tint_.trace(opaque.points, layer, frame.input.view, triangles, surfaces, passes_, frame.stop))
-    return base::fail("stopped");
+    return base::stopped();
 
   const std::span<const std::uint32_t> samples = passes_.pixels;
   const auto factors = layer.factors();

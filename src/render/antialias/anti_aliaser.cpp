@@ -44,7 +44,7 @@ template <class Add>
 Expected<void> for_each_part(const SampleStages& stages, std::span<const std::uint32_t> pixels,
                              std::size_t at_once, std::size_t first, Add add) {
   for (std::size_t i = 0; i < pixels.size(); i += at_once) {
-    if (stop_requested(stages.frame.stop)) return base::fail("stopped");
+    if (stop_requested(stages.frame.stop)) return base::stopped();
     if (auto added = add(pixels.subspan(i, std::min(at_once, pixels.size() - i)), first + i); !added)
       return added;
   }

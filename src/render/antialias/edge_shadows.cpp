@@ -26,7 +26,7 @@ Expected<void> EdgeShadows::find(const SampleStages& stages, const EdgeTask& tas
 Expected<void> EdgeShadows::trace_own(const SampleStages& stages) {
   const Frame& frame = stages.frame;
   const std::size_t count = edges_.own.size();
-  if (stop_requested(frame.stop)) return base::fail("stopped");
+  if (stop_requested(frame.stop)) return base::stopped();
   place_own(edges_.own, own_ids_, own_places_);
   points::compute_sample_points(own_ids_, own_places_, count, frame.input.view, frame.triangles(),
                                 own_.points);
