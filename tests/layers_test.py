@@ -33,6 +33,8 @@ MAY_INCLUDE = {
     "visibility": {"base", "math", "simd", "parallel", "scene"},
     "raster": {"base", "math", "scene", "gl", "visibility"},
     "render": {"base", "io", "math", "simd", "parallel", "scene", "formats", "points", "shadow", "soft", "ao", "tint", "gl", "raster", "visibility", "texture", "shade"},
+    "settings": {"base", "io", "scene", "formats", "gl", "shade", "stage", "render"},
+    "session": {"base", "io", "scene", "formats", "shade", "stage", "render", "settings"},
     "bake": {"base", "parallel", "scene", "points", "soft", "shade", "render"},
 }
 

@@ -23,7 +23,7 @@
 #include "beside.h"
 #include "loaded_scene.h"
 #include "render/log/frame_columns.h"
-#include "shared/scene_summary.h"
+#include "session/scene_summary.h"
 
 namespace py = pybind11;
 
@@ -248,10 +248,13 @@ py::dict geometry_dict(FrameGeometry&& geometry) {
 
 py::list light_list(const LoadedScene& scene, double time_s) {
   py::list out;
-  for (const WorldLight& placed : scene.lights(time_s)) {
-    const Light light = light_at(scene.plan().scene, placed);
+  const render::FrameInput input = scene.at(time_s);
+  Scene edited;
+  edited.lights = stage::lights_of(scene.staged().scene, scene.edits());
+  for (const WorldLight& placed : input.lights) {
+    const Light light = light_at(edited, placed);
     py::dict entry;
-    entry["type"] = std::string(viewer::light_type_name(light.type));
+    entry["type"] = std::string(session::light_type_name(light.type));
     entry["name"] = light.name;
     entry["position"] = tuple_of(placed.position);
     entry["direction"] = tuple_of(placed.direction);
@@ -362,16 +365,16 @@ void add_scenes(py::module_& module) {
              return picture_dict(std::move(*picture));
            })
       .def("time_of", [](const Loaded& scene, int frame) { return checked(scene.time_of(frame)); })
-      .def("geometry",
-           [](const Loaded& scene, double time_s) { return geometry_dict(scene.geometry(time_s)); })
+      .def("geometry", [](const Loaded& scene,
+                          double time_s) { return geometry_dict(std::move(scene.at(time_s).geometry)); })
       .def("lights", &light_list)
-      .def_property_readonly("frames", &Loaded::frames)
+      .def_property_readonly("frames", [](const Loaded& scene) { return scene.staged().frames(); })
       .def_property_readonly("size",
                              [](const Loaded& scene) {
-                               return py::make_tuple(scene.plan().size.width, scene.plan().size.height);
+                               return py::make_tuple(scene.staged().size.width, scene.staged().size.height);
                              })
-      .def_property_readonly("name", [](const Loaded& scene) { return scene.plan().scene.name; })
-      .def_property_readonly("warnings", [](const Loaded& scene) { return scene.plan().scene.warnings; });
+      .def_property_readonly("name", [](const Loaded& scene) { return scene.staged().scene.name; })
+      .def_property_readonly("warnings", [](const Loaded& scene) { return scene.staged().scene.warnings; });
 }
 
 }  // namespace

@@ -1,8 +1,7 @@
 #include "loaded_scene.h"
 
 #include "base/fail.h"
-#include "base/stopwatch.h"
-#include "shared/auto_exposure.h"
+#include "session/auto_exposure.h"
 
 namespace tenebra::python {
 
@@ -14,17 +13,10 @@ Expected<std::unique_ptr<LoadedScene>> LoadedScene::load(const std::string& path
   if (auto parsed = viewer::parse_arguments(*command, arguments); !parsed)
     return tl::unexpected(parsed.error());
   loaded->options_.file = path;
-  auto plan = viewer::plan_scene(loaded->options_);
-  if (!plan) return tl::unexpected(plan.error());
-  loaded->plan_ = std::move(*plan);
-  viewer::ScenePlan& ready = loaded->plan_;
-  ready.scene.lights = stage::lights_of(ready.scene, loaded->options_.edits);
-  auto raster = render::FrameRaster::create({.kind = render::RasterKind::cpu});
-  if (!raster) return tl::unexpected(raster.error());
-  loaded->renderer_ = render::Renderer::create(std::move(*raster), ready.scene);
-  if (ready.environment) loaded->renderer_->set_environment(*ready.environment);
-  if (!loaded->options_.edits.materials.empty())
-    loaded->renderer_->set_materials(stage::materials_of(ready.scene, loaded->options_.edits));
+  auto session = session::Session::open(loaded->options_, {.kind = render::RasterKind::cpu});
+  if (!session) return tl::unexpected(session.error());
+  loaded->session_.emplace(std::move(*session));
+  loaded->display_ = loaded->staged().display;
   return loaded;
 }
 
@@ -46,15 +38,13 @@ Expected<LoadedScene::Wish> LoadedScene::wish_of(const std::string& arguments) c
 }
 
 Expected<render::RenderSettings> LoadedScene::settings_of(const Wish& wish) {
-  if (wish.method.auto_exposure && !plan_.display.exposures) {
-    const auto exposures = viewer::meter_exposures(plan_, options_);
+  if (wish.method.auto_exposure && !display_.exposures) {
+    const auto exposures = session::meter_exposures(staged(), options_);
     if (!exposures) return tl::unexpected(exposures.error());
-    plan_.display.exposures = *exposures;
+    display_.exposures = *exposures;
   }
   render::RenderSettings settings =
-      viewer::method_settings(wish.method, wish.scene.size.value_or(plan_.size), plan_.display);
-  settings.area_lights.own_size_m = stage::edited_sizes_m(options_.edits.lights);
-  settings.area_lights.own_sun_deg = stage::edited_suns_deg(options_.edits.lights);
+      viewer::method_settings(wish.method, wish.scene.size.value_or(staged().size), display_);
   settings.aovs = wish.aovs;
   return settings;
 }
@@ -75,27 +65,20 @@ Expected<LoadedScene::Picture> LoadedScene::render(int frame, std::optional<doub
     if (!time) return tl::unexpected(time.error());
     time_s = *time;
   }
-  int camera = plan_.camera;
+  session::Viewpoint viewpoint = session::viewpoint_of(staged(), wish.scene);
   if (wish.scene.camera) {
-    const auto chosen = viewer::choose_camera(plan_.scene, wish.scene.camera);
+    const auto chosen = session::choose_camera(staged().scene, wish.scene.camera);
     if (!chosen) return tl::unexpected(chosen.error());
-    camera = *chosen;
+    viewpoint.camera = *chosen;
   }
-  const viewer::Size size{settings->width, settings->height};
-  base::Stopwatch watch;
-  render::FrameInput& input = input_;
-  evaluate(*time_s, input.geometry);
-  input.lights = lights(*time_s);
-  input.view = wish.scene.eye ? viewer::view_of(plan_, wish.scene, *time_s, size)
-                              : viewer::view_of_camera(plan_, plan_.clip, camera, *time_s, size);
+  const settings::Size size{settings->width, settings->height};
+  session_->place(*time_s, session::rays_of(staged(), viewpoint, *time_s, size));
   Picture picture;
   const auto note = [&work](std::string_view, double done) { work.done = done; };
-  const double evaluate_ms = watch.lap_ms();
-  if (auto drawn = renderer_->render_frame(input, *settings, picture.result, note, &work.stop); !drawn)
+  if (auto drawn = session_->draw(*settings, picture.result, note, &work.stop); !drawn)
     return tl::unexpected(drawn.error());
-  picture.result.timings.evaluate_ms = evaluate_ms;  // as the program's log has them
-  picture.result.timings.total_ms = evaluate_ms + watch.lap_ms();
-  const auto ids = renderer_->triangle_ids();
+  const render::FrameInput& input = session_->placed();
+  const auto ids = session_->renderer().triangle_ids();
   picture.points.triangles.assign(ids.begin(), ids.end());
   if (wanted.points) {
     const TriangleView triangles = triangle_view(input.geometry);
@@ -108,21 +91,17 @@ Expected<LoadedScene::Picture> LoadedScene::render(int frame, std::optional<doub
 }
 
 Expected<double> LoadedScene::time_of(int frame) const {
-  if (frame < 0 || frame >= frames())
+  const session::StagedScene& scene = staged();
+  if (frame < 0 || frame >= scene.frames())
     return base::fail("frame {} does not exist, {} has frames 0 to {}", frame,
-                      plan_.clip < 0 ? "the scene without animation" : "the animation", frames() - 1);
-  return viewer::time_of_frame(plan_.scene, plan_.clip, frame, options_.fps);
+                      scene.clip < 0 ? "the scene without animation" : "the animation", scene.frames() - 1);
+  return scene.time_of_frame(frame);
 }
 
-void LoadedScene::evaluate(double time_s, FrameGeometry& geometry) const {
-  evaluate_frame(plan_.scene, plan_.clip, time_s, geometry);
-  stage::apply_node_edits(plan_.scene, options_.edits, geometry);
-}
-
-FrameGeometry LoadedScene::geometry(double time_s) const {
-  FrameGeometry geometry;
-  evaluate(time_s, geometry);
-  return geometry;
+render::FrameInput LoadedScene::at(double time_s) const {
+  render::FrameInput input;
+  session::evaluate(staged().scene, options_.edits, staged().clip, time_s, input);
+  return input;
 }
 
 }  // namespace tenebra::python

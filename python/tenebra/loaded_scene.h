@@ -12,9 +12,7 @@
 #include "options/method_options.h"
 #include "options/picture_options.h"
 #include "options/scene_options.h"
-#include "render/renderer.h"
-#include "shared/scene_choice.h"
-#include "shared/scene_plan.h"
+#include "session/session.h"
 
 namespace tenebra::python {
 
@@ -24,7 +22,7 @@ struct Work {
   std::atomic<double> done{0};
 };
 
-/// A scene made ready as `tenebra render` makes it, and a renderer on the CPU.
+/// A scene made ready as `tenebra render` makes it, drawn on the CPU.
 class LoadedScene {
 public:
   /// `arguments`: options of `tenebra render` that speak of the scene.
@@ -47,12 +45,10 @@ public:
                            Wanted wanted, Work& work);
 
   Expected<double> time_of(int frame) const;
-  FrameGeometry geometry(double time_s) const;
-  std::vector<WorldLight> lights(double time_s) const {
-    return stage::placed_lights(plan_.scene, options_.edits, plan_.clip, time_s);
-  }
-  int frames() const { return viewer::frames_of_clip(plan_.scene, plan_.clip, options_.fps); }
-  const viewer::ScenePlan& plan() const { return plan_; }
+  /// The triangles and lights of an instant.
+  render::FrameInput at(double time_s) const;
+  const stage::SceneEdits& edits() const { return options_.edits; }
+  const session::StagedScene& staged() const { return session_->staged(); }
 
   Beside beside;  ///< for calls of render()
 
@@ -65,15 +61,13 @@ private:
     viewer::MethodOptions method;
     render::AovChoice aovs;
   };
-  void evaluate(double time_s, FrameGeometry& geometry) const;
   Expected<Wish> wish_of(const std::string& arguments) const;
   Expected<render::RenderSettings> settings_of(const Wish& wish);
 
   viewer::SceneOptions options_;
-  viewer::ScenePlan plan_;
-  std::optional<render::Renderer> renderer_;
-  std::optional<Wish> wish_;  ///< of the last call: many have the same
-  render::FrameInput input_;  ///< likewise, for its memory
+  std::optional<session::Session> session_;
+  settings::SceneDisplay display_;  ///< the scene's, with exposures once they were asked for
+  std::optional<Wish> wish_;        ///< of the last call: many have the same
 };
 
 }  // namespace tenebra::python

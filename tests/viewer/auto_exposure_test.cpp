@@ -6,7 +6,7 @@
 
 #include <tenebra/threads.h>
 #include "scene_files.h"
-#include "shared/auto_exposure.h"
+#include "session/auto_exposure.h"
 #include "shared/render_plan.h"
 #include "viewer_picture.h"
 
@@ -14,8 +14,8 @@ namespace tenebra::testing {
 namespace {
 
 namespace fs = std::filesystem;
+using session::StagedScene;
 using viewer::SceneOptions;
-using viewer::ScenePlan;
 
 double clipped_share(const io::Image8& image) {
   std::size_t clipped = 0;
@@ -25,7 +25,7 @@ double clipped_share(const io::Image8& image) {
 }
 
 /// Times between those that are metered.
-std::vector<double> times(const ScenePlan& plan) {
+std::vector<double> times(const session::StagedScene& plan) {
   if (plan.clip < 0) return {0.0};
   const Clip& clip = plan.scene.clips[static_cast<std::size_t>(plan.clip)];
   std::vector<double> found;
@@ -42,7 +42,7 @@ SceneOptions options_of(const fs::path& file) {
   return options;
 }
 
-render::RenderSettings exposed(const ScenePlan& plan, shade::Tone tone) {
+render::RenderSettings exposed(const session::StagedScene& plan, shade::Tone tone) {
   return {.exposure = (*plan.display.exposures)[static_cast<std::size_t>(tone)], .tone = tone};
 }
 
@@ -50,7 +50,7 @@ TEST(AutoExposure, AtMostTwoPercentOfThePixelsAreClippedInAnyScene) {
   std::size_t drawn = 0;
   for (const fs::path& file : testing::scene_files()) {
     const SceneOptions options = options_of(file);
-    const auto plan = viewer::plan_scene(options);
+    const auto plan = session::stage_scene(options);
     ASSERT_TRUE(plan) << plan.error().message;
     for (const double time_s : times(*plan)) {
       for (const shade::Tone tone : {viewer::tone_of({}, plan->scene.transfer), shade::Tone::none}) {
@@ -66,7 +66,7 @@ TEST(AutoExposure, AtMostTwoPercentOfThePixelsAreClippedInAnyScene) {
 TEST(AutoExposure, MoreWouldBeTooMuch) {
   for (const char* name : {"city.glb", "court.glb", "gallery.glb", "square.glb"}) {
     const SceneOptions options = options_of(fs::path(TENEBRA_SCENES_DIR) / name);
-    const auto plan = viewer::plan_scene(options);
+    const auto plan = session::stage_scene(options);
     ASSERT_TRUE(plan) << plan.error().message;
     render::RenderSettings settings = exposed(*plan, shade::Tone::none);
     settings.exposure *= 2;
@@ -101,12 +101,12 @@ TEST(AutoExposure, IsTheSameForEveryFrameThreadCountAndMethod) {
 }
 
 TEST(AutoExposure, IsOneWhereNothingIsSeen) {
-  ScenePlan plan;
+  session::StagedScene plan;
   plan.scene.cameras.emplace_back();
   plan.size = {16, 12};
   SceneOptions options;
   options.eye = glm::vec3(0, 0, 1);
-  const auto found = viewer::meter_exposures(plan, options);
+  const auto found = session::meter_exposures(plan, options);
   ASSERT_TRUE(found) << found.error().message;
   for (const float exposure : *found) EXPECT_EQ(exposure, 1.0f);
 }

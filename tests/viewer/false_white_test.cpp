@@ -12,13 +12,13 @@ namespace tenebra::testing {
 namespace {
 
 namespace fs = std::filesystem;
+using session::StagedScene;
 using viewer::SceneOptions;
-using viewer::ScenePlan;
 
 constexpr std::size_t least_pixels = 50;
 
 /// The scene with a flat colour for each mesh, which is its number.
-ScenePlan numbered(ScenePlan plan) {
+session::StagedScene numbered(session::StagedScene plan) {
   Scene& scene = plan.scene;
   scene.transfer = Transfer::display;
   scene.materials.clear();
@@ -42,8 +42,8 @@ struct Count {
 };
 
 /// By mesh number.
-std::map<std::size_t, Count> count_white(const ScenePlan& plan, const SceneOptions& options, double time_s,
-                                         float exposure = 1) {
+std::map<std::size_t, Count> count_white(const session::StagedScene& plan, const SceneOptions& options,
+                                         double time_s, float exposure = 1) {
   render::RenderSettings lit;
   lit.exposure = exposure;
   render::RenderSettings unlit;
@@ -62,7 +62,7 @@ std::map<std::size_t, Count> count_white(const ScenePlan& plan, const SceneOptio
   return counts;
 }
 
-void expect_no_white_object(const ScenePlan& plan, const SceneOptions& options, double time_s) {
+void expect_no_white_object(const session::StagedScene& plan, const SceneOptions& options, double time_s) {
   std::size_t objects = 0;
   for (const auto& [number, count] : count_white(plan, options, time_s)) {
     if (count.pixels < least_pixels) continue;
@@ -78,7 +78,7 @@ TEST(FalseWhite, WhiteObjectsAreFound) {
   SceneOptions options;
   options.file = TENEBRA_SCENES_DIR "/gallery.glb";
   options.size = viewer::Size{320, 240};
-  const auto plan = viewer::plan_scene(options);
+  const auto plan = session::stage_scene(options);
   ASSERT_TRUE(plan) << plan.error().message;
   std::size_t white = 0, objects = 0;
   for (const auto& [number, count] : count_white(*plan, options, 0, 1000)) {
@@ -95,7 +95,7 @@ TEST(FalseWhite, NoObjectIsMostlyWhite) {
     SceneOptions options;
     options.file = file.string();
     options.size = viewer::Size{320, 240};
-    const auto plan = viewer::plan_scene(options);
+    const auto plan = session::stage_scene(options);
     ASSERT_TRUE(plan) << file << ": " << plan.error().message;
     double start_s = 0, end_s = 0;
     if (plan->clip >= 0) {

@@ -8,7 +8,8 @@
 namespace tenebra::viewer {
 namespace {
 
-FrameRequest request_for(const std::shared_ptr<const ScenePlan>& plan, const render::RenderSettings& asked) {
+FrameRequest request_for(const std::shared_ptr<const session::StagedScene>& plan,
+                         const render::RenderSettings& asked) {
   FrameRequest request;
   request.scene = plan;
   request.clip = plan->clip;
@@ -34,9 +35,9 @@ io::Image8 made(FrameMaker& maker, const FrameRequest& request, PreviewLevel lev
 
 /// Previews of all levels, of this moment and another, then the whole picture; beside one drawn alone.
 void expect_whole_after_previews(const SceneOptions& options, const render::RenderSettings& asked) {
-  auto planned = plan_scene(options);
+  auto planned = session::stage_scene(options);
   ASSERT_TRUE(planned) << planned.error().message;
-  const auto plan = std::make_shared<const ScenePlan>(std::move(*planned));
+  const auto plan = std::make_shared<const session::StagedScene>(std::move(*planned));
   const io::Image8 alone = testing::picture_of(*plan, options, 1.25, asked);
   const FrameRequest request = request_for(plan, asked);
   FrameMaker maker(render::RasterChoice{});
@@ -87,13 +88,13 @@ struct SmallRequest {
   SmallRequest() {
     options.file = testing::write_moving_scene(folder).string();
     options.size = Size{160, 120};
-    plan = std::make_shared<const ScenePlan>(std::move(*plan_scene(options)));
+    plan = std::make_shared<const session::StagedScene>(std::move(*session::stage_scene(options)));
     request = request_for(plan, {});
   }
 
   testing::TemporaryFolder folder;
   SceneOptions options;
-  std::shared_ptr<const ScenePlan> plan;
+  std::shared_ptr<const session::StagedScene> plan;
   FrameRequest request;
 };
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "shared/scene_plan.h"
+#include "session/viewpoint.h"
 #include "viewer_picture.h"
 
 namespace tenebra::testing {
@@ -22,7 +22,7 @@ public:
   explicit Unshadowed(const View& view) : time_s_(view.time_s) {
     options_.file = view.file.string();
     options_.size = viewer::Size{320, 240};
-    auto plan = viewer::plan_scene(options_);
+    auto plan = session::stage_scene(options_);
     EXPECT_TRUE(plan) << plan.error().message;
     plan_ = std::move(*plan);
     for (Mesh& mesh : plan_.scene.meshes) mesh.casts_shadow = false;
@@ -36,7 +36,7 @@ public:
     render::FrameInput input;
     evaluate_frame(plan_.scene, plan_.clip, time_s_, input.geometry);
     input.lights = evaluate_lights(plan_.scene, plan_.clip, time_s_);
-    input.view = viewer::view_of(plan_, options_, time_s_, plan_.size);
+    input.view = session::rays_of(plan_, session::viewpoint_of(plan_, options_), time_s_, plan_.size);
     render::RenderSettings settings{.width = plan_.size.width, .height = plan_.size.height};
     settings.shadows = shadows;
     settings.area_lights = {.size = glm::vec2(2.0f), .percent_of_diagonal = true, .emission = emission};
@@ -65,7 +65,7 @@ public:
 
 private:
   viewer::SceneOptions options_;
-  viewer::ScenePlan plan_;
+  session::StagedScene plan_;
   double time_s_ = 0;
 };
 
@@ -77,7 +77,7 @@ std::vector<View> views() {
        {std::pair("museum/museum5.aff", 216), std::pair("kitchen/kitchen.aff", 100)}) {
     viewer::SceneOptions options;
     options.file = (bart / file).string();
-    const auto plan = viewer::plan_scene(options);
+    const auto plan = session::stage_scene(options);
     EXPECT_TRUE(plan) << plan.error().message;
     const Clip& clip = plan->scene.clips[static_cast<std::size_t>(plan->clip)];
     found.push_back({bart / file, frame_time_s(clip, frame, 30.0)});

@@ -74,7 +74,7 @@ io::Image8 drawn(const char* file, double time_s, bool plain = false) {
   options.file = (bart / file).string();
   options.size = viewer::Size{800, 600};
   options.plain = plain;
-  const auto plan = viewer::plan_scene(options);
+  const auto plan = session::stage_scene(options);
   EXPECT_TRUE(plan) << plan.error().message;
   return plan ? picture_of(*plan, options, time_s) : io::Image8{};
 }

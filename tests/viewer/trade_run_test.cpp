@@ -8,6 +8,7 @@
 
 #include <tenebra/stop_flag.h>
 
+#include "session/viewpoint.h"
 #include "trade/trade_run.h"
 #include "viewer/viewer_test_scene.h"
 
@@ -25,18 +26,17 @@ protected:
   void SetUp() override {
     options_.file = write_moving_scene(folder_).string();
     options_.size = viewer::Size{32, 24};
-    auto plan = viewer::plan_scene(options_);
+    auto plan = session::stage_scene(options_);
     ASSERT_TRUE(plan) << plan.error().message;
     plan_ = std::move(*plan);
-    request_.scene = &plan_;
+    request_.scene = std::make_shared<const session::StagedScene>(plan_);
     request_.clip = plan_.clip;
     request_.frames = {{30, 1}};
     request_.settings.width = plan_.size.width, request_.settings.height = plan_.size.height;
     request_.raster.kind = render::RasterKind::cpu;
-    request_.lights = plan_.scene.lights;
     request_.view = [this](double time_s) {
       drawn_.push_back(time_s);
-      return viewer::view_of(plan_, options_, time_s, plan_.size);
+      return session::rays_of(plan_, session::viewpoint_of(plan_, options_), time_s, plan_.size);
     };
     request_.axes.antialias = {1, 4};
     request_.repeats = 1;
@@ -57,7 +57,7 @@ protected:
 
   TemporaryFolder folder_;
   viewer::SceneOptions options_;
-  viewer::ScenePlan plan_;
+  session::StagedScene plan_;
   TradeRequest request_;
   StopFlag stop_;
   std::vector<double> drawn_;
@@ -131,7 +131,8 @@ TEST_F(TradeRun, ErrorsOfFramesThatWereNotTriedWidenTheSpread) {
   viewer::SceneOptions afar = options_;
   afar.eye = glm::vec3(0, 10, 40);
   request_.view = [&](double time_s) {
-    return viewer::view_of(plan_, time_s < 1 ? afar : options_, time_s, plan_.size);
+    return session::rays_of(plan_, session::viewpoint_of(plan_, time_s < 1 ? afar : options_), time_s,
+                            plan_.size);
   };
   request_.frames = from_afar, request_.more_frames = near;
   const auto wider = run_trade(request_, {}, stop_);

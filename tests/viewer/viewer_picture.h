@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "render/renderer.h"
-#include "shared/scene_plan.h"
+#include "session/viewpoint.h"
 
 namespace tenebra::testing {
 
-inline io::Image8 picture_of(const viewer::ScenePlan& plan, const viewer::SceneOptions& options,
+inline io::Image8 picture_of(const session::StagedScene& plan, const viewer::SceneOptions& options,
                              double time_s, render::RenderSettings settings = {}) {
   auto raster = render::FrameRaster::create(render::RasterChoice{});
   EXPECT_TRUE(raster) << raster.error().message;
@@ -16,7 +16,7 @@ inline io::Image8 picture_of(const viewer::ScenePlan& plan, const viewer::SceneO
   render::FrameInput input;
   evaluate_frame(plan.scene, plan.clip, time_s, input.geometry);
   input.lights = evaluate_lights(plan.scene, plan.clip, time_s);
-  input.view = viewer::view_of(plan, options, time_s, plan.size);
+  input.view = session::rays_of(plan, session::viewpoint_of(plan, options), time_s, plan.size);
   settings.width = plan.size.width;
   settings.height = plan.size.height;
   render::FrameResult result;

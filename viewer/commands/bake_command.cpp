@@ -12,14 +12,14 @@
 #include "io/exr/exr_file.h"
 #include "io/output_file.h"
 #include "options/bake_options.h"
+#include "session/session.h"
 #include "shade/display.h"
 #include "shared/files_apart.h"
-#include "shared/scene_choice.h"
-#include "shared/scene_plan.h"
 #include "shell/console.h"
 #include "shell/memory_limit.h"
 #include "shell/progress.h"
 #include "shell/stop_signals.h"
+#include "stage/default_light.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -46,67 +46,45 @@ constexpr const char* bake_examples =
 
 /// A scene of one instant, its meshes separated for baking.
 struct Baking {
-  ScenePlan plan;
-  std::vector<std::filesystem::path> inputs;
+  session::StagedScene staged;
   render::FrameInput input;
   bake::LightRequest request;
   std::vector<std::string> notes;
 };
 
-/// Takes the parts out again that only a picture needs.
-void drop_added_parts(ScenePlan& plan) {
-  Scene& scene = plan.scene;
-  const auto drop = [&](int Node::*kind, auto& list) {
-    const int last = static_cast<int>(list.size()) - 1;
-    std::erase_if(scene.nodes, [&](const Node& node) { return node.*kind == last && node.mesh < 0; });
-    list.pop_back();
-  };
-  if (plan.added.light) drop(&Node::light, scene.lights);
-  if (plan.added.camera) drop(&Node::camera, scene.cameras);
-  std::erase_if(scene.warnings, [](const std::string& warning) {
-    return warning.starts_with("The scene has no camera; ") ||
-           warning.starts_with("The scene has no light; ");
-  });
+Expected<double> moment(const BakeOptions& options, const session::StagedScene& staged) {
+  if (!options.frame) return options.scene.time_s.value_or(staged.time_of_frame(0));
+  if (*options.frame >= staged.frames())
+    return base::fail("--frame: frame {} does not exist, the animation has frames 0 to {}", *options.frame,
+                      staged.frames() - 1);
+  return staged.time_of_frame(*options.frame);
 }
 
-Expected<double> moment(const BakeOptions& options, const ScenePlan& plan) {
-  if (!options.frame)
-    return options.scene.time_s.value_or(time_of_frame(plan.scene, plan.clip, 0, options.scene.fps));
-  const int frames = frames_of_clip(plan.scene, plan.clip, options.scene.fps);
-  if (*options.frame >= frames)
-    return base::fail("--frame: frame {} does not exist, the animation has frames 0 to {}", *options.frame,
-                      frames - 1);
-  return time_of_frame(plan.scene, plan.clip, *options.frame, options.scene.fps);
+/// Of both light and occlusion: what fills where no light shines.
+glm::vec3 ambient_light(const BakeOptions& options, const Scene& scene) {
+  // A file without light has no say in it: what its pictures have.
+  return options.ambient.value_or(scene.lights.empty() ? glm::vec3(stage::default_ambient)
+                                                       : scene.ambient_light);
 }
 
 Expected<Baking> prepare(const BakeOptions& options) {
-  Baking baking;
-  SceneOptions of_scene = options.scene;
-  of_scene.floor = false;
-  of_scene.import.files_read = &baking.inputs;
-  auto plan = plan_scene(of_scene);
-  if (!plan) return tl::unexpected(plan.error());
-  baking.plan = std::move(*plan);
-  Scene& scene = baking.plan.scene;
-  const bool no_light = baking.plan.added.light && options.scene.edits.added.empty();
+  auto staged = session::stage_scene(options.scene, session::Staging::as_it_is);
+  if (!staged) return tl::unexpected(staged.error());
+  Baking baking{.staged = std::move(*staged), .input = {}, .request = {}, .notes = {}};
+  Scene& scene = baking.staged.scene;
+  const bool no_light = scene.lights.empty() && options.scene.edits.added.empty();
   if (no_light && options.content != BakeContent::ao)
     return base::fail("{}: found no light, expected one; --add-light adds it, --what ao needs none",
                       options.scene.file);
-  drop_added_parts(baking.plan);
-  if (auto checked = stage::check_edits(options.scene.edits, scene); !checked)
-    return tl::unexpected(checked.error());
   bake::separate_meshes(scene);
   if (options.target == BakeTarget::vertices) bake::separate_flat_corners(scene);
-  const auto time_s = moment(options, baking.plan);
+  const auto time_s = moment(options, baking.staged);
   if (!time_s) return tl::unexpected(time_s.error());
 
-  evaluate_frame(scene, baking.plan.clip, *time_s, baking.input.geometry);
-  stage::apply_node_edits(scene, options.scene.edits, baking.input.geometry);
-  baking.input.lights = stage::placed_lights(scene, options.scene.edits, baking.plan.clip, *time_s);
-  baking.request.settings = bake_settings(options);
+  session::evaluate(scene, options.scene.edits, baking.staged.clip, *time_s, baking.input);
+  baking.request.settings = session::with_edits(bake_settings(options), options.scene.edits);
   baking.request.direct = options.content != BakeContent::ao;
-  if (options.content == BakeContent::both)
-    baking.request.ambient = options.ambient.value_or(scene.ambient_light);
+  if (options.content == BakeContent::both) baking.request.ambient = ambient_light(options, scene);
   if (options.content == BakeContent::both && baking.request.ambient == glm::vec3(0.0f))
     baking.notes.emplace_back(
         "the scene has no ambient light, so occlusion does not change the light; --ambient 0.2,0.2,0.2 adds "
@@ -120,9 +98,9 @@ struct LitScene {
   std::optional<bake::SurfaceLight> light;
 };
 Expected<void> light_scene(const BakeOptions& options, Baking& baking, LitScene& out) {
-  out.scene = baking.plan.scene;
-  out.scene.lights = stage::lights_of(baking.plan.scene, options.scene.edits);
-  out.scene.materials = stage::materials_of(baking.plan.scene, options.scene.edits);
+  out.scene = baking.staged.scene;
+  out.scene.lights = stage::lights_of(baking.staged.scene, options.scene.edits);
+  out.scene.materials = stage::materials_of(baking.staged.scene, options.scene.edits);
   auto light = bake::SurfaceLight::create(out.scene, baking.input, baking.request, baking.notes);
   if (!light) return tl::unexpected(light.error());
   out.light = std::move(*light);
@@ -259,7 +237,7 @@ Expected<void> to_vertices(Baking& baking, LitScene& lit, const BakeOptions& opt
   const auto values = bake_vertices(baking, *lit.light, options, stop);
   if (!values) return tl::unexpected(values.error());
   const double ms = watch.lap_ms();
-  Scene& scene = baking.plan.scene;
+  Scene& scene = baking.staged.scene;
   const auto clipped =
       bake::colour_vertices(scene, *values, options.exposure, options.content == BakeContent::ao);
   if (clipped.vertices > 0 && options.content != BakeContent::ao)
@@ -276,7 +254,7 @@ Expected<void> to_vertices(Baking& baking, LitScene& lit, const BakeOptions& opt
 
 Expected<void> to_lightmap(Baking& baking, LitScene& lit, const BakeOptions& options, const StopFlag& stop) {
   base::Stopwatch watch;
-  auto places = bake::place_in_map(baking.plan.scene, baking.input.geometry, options.size);
+  auto places = bake::place_in_map(baking.staged.scene, baking.input.geometry, options.size);
   if (!places) return base::fail("{}: {}", options.scene.file, places.error().message);
   const bake::TexelCoverage coverage(places->triangles, options.size, options.per_side);
   if (coverage.covered_places() == 0)
@@ -292,7 +270,7 @@ Expected<void> to_lightmap(Baking& baking, LitScene& lit, const BakeOptions& opt
   const auto bytes = encode_map(*map, options);
   if (!bytes) return base::fail("{}: {}", options.map, bytes.error().message);
   if (auto written = io::write_file(options.map, *bytes); !written) return written;
-  if (auto written = write_scene(baking.plan.scene, options); !written) return written;
+  if (auto written = write_scene(baking.staged.scene, options); !written) return written;
   if (!options.quiet)
     print_out("{}x{} texels, {} covered, {} lit, {} lights, {:.2f} s: {}, {}\n", options.size, options.size,
               texels, lit_texels, lit.light->lights(), ms / 1e3, options.map, options.output);
@@ -301,7 +279,8 @@ Expected<void> to_lightmap(Baking& baking, LitScene& lit, const BakeOptions& opt
 
 Expected<void> check_outputs(const Baking& baking, const BakeOptions& options) {
   return check_files_apart(
-      baking.inputs, [&](const std::function<Expected<void>(const OutputName&)>& use) -> Expected<void> {
+      baking.staged.inputs,
+      [&](const std::function<Expected<void>(const OutputName&)>& use) -> Expected<void> {
         if (auto used = use({"-o", options.output}); !used) return used;
         if (options.map.empty()) return {};
         return use({"--map", options.map});
@@ -314,7 +293,7 @@ Expected<int> bake_scene(const BakeOptions& options) {
   auto baking = prepare(options);
   if (!baking) return tl::unexpected(baking.error());
   if (auto apart = check_outputs(*baking, options); !apart) return tl::unexpected(apart.error());
-  if (!options.quiet) print_warnings(baking->plan.scene.warnings);
+  if (!options.quiet) print_warnings(baking->staged.scene.warnings);
   LitScene lit;
   if (auto made = light_scene(options, *baking, lit); !made) return tl::unexpected(made.error());
   stop.be_orderly();

@@ -9,7 +9,6 @@
 #include "options/option_values.h"
 #include "options/scene_options.h"
 #include "shared/files_apart.h"
-#include "shared/scene_choice.h"
 #include "shell/console.h"
 #include "shell/memory_limit.h"
 #include "shell/stop_signals.h"

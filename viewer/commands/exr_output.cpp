@@ -47,8 +47,11 @@ std::string channel_word(std::string name) {
 class LightNames {
 public:
   LightNames(const RenderPlan& plan, const RenderOptions& options, double time_s) {
-    for (const WorldLight& placed : stage::placed_lights(plan.scene, options.scene.edits, plan.clip, time_s))
-      names_.push_back(channel_word(plan.scene.lights[static_cast<std::size_t>(placed.light)].name));
+    const session::StagedScene& staged = *plan.staged;
+    const std::vector<Light> lights = stage::lights_of(staged.scene, options.scene.edits);
+    for (const WorldLight& placed :
+         stage::placed_lights(staged.scene, options.scene.edits, staged.clip, time_s))
+      names_.push_back(channel_word(lights[static_cast<std::size_t>(placed.light)].name));
   }
   /// No two lights have the same.
   std::string take(int light) {
@@ -69,7 +72,7 @@ std::vector<io::exr::Text> texts_of(const RenderPlan& plan, std::span<const rend
   std::map<std::string, std::string> values{
       {"tenebra/frame", fmt::format("{}", frame.frame)},
       {"tenebra/time", fmt::format("{} s", frame.time_s)},
-      {"tenebra/colours", plan.scene.transfer == Transfer::srgb
+      {"tenebra/colours", plan.staged->scene.transfer == Transfer::srgb
                               ? "linear, of the primaries of sRGB, before exposure and tone"
                               : "display values, as the scene states them, before exposure and tone"}};
   for (const render::LogSetting& setting : settings) {
@@ -136,13 +139,12 @@ Expected<std::string> exr_of_frame(const RenderPlan& plan, const RenderOptions& 
   LightNames names(plan, options, frame.time_s);
   for (const render::LightVisibility& of : aovs.visibility)
     layers.add_single("visibility." + names.take(of.light), of.fraction.pixels, precision);
-  return io::exr::encode(
-      {.width = plan.settings.width,
-       .height = plan.settings.height,
-       .channels = layers.take(),
-       .camera = camera_matrices(view_of(plan, options.scene, frame.time_s, plan.size), plan.size),
-       .texts = texts_of(plan, settings, frame),
-       .compression = options.pictures.compression.value_or(io::exr::Compression::zip)});
+  return io::exr::encode({.width = plan.settings.width,
+                          .height = plan.settings.height,
+                          .channels = layers.take(),
+                          .camera = camera_matrices(plan.rays(frame.time_s), plan.staged->size),
+                          .texts = texts_of(plan, settings, frame),
+                          .compression = options.pictures.compression.value_or(io::exr::Compression::zip)});
 }
 
 }  // namespace tenebra::viewer

@@ -12,9 +12,8 @@
 #include "options/method_options.h"
 #include "options/option_values.h"
 #include "options/scene_options.h"
-#include "shared/scene_choice.h"
-#include "shared/scene_plan.h"
-#include "shared/scene_summary.h"
+#include "session/scene_summary.h"
+#include "session/staged_scene.h"
 #include "shell/console.h"
 #include "shell/memory_limit.h"
 #include "stage/additions.h"
@@ -54,7 +53,7 @@ double degrees(float radians) {
   return radians * 180.0 / std::numbers::pi;
 }
 
-Json counts_of(const Scene& scene, const SceneSummary& summary) {
+Json counts_of(const Scene& scene, const session::SceneSummary& summary) {
   std::size_t morph_targets = 0;
   for (const Mesh& mesh : scene.meshes) morph_targets += mesh.morph_targets.size();
   return {{"triangles", summary.triangles},
@@ -71,7 +70,7 @@ Json counts_of(const Scene& scene, const SceneSummary& summary) {
 }
 
 /// Triangles of the first frame by what their materials say.
-Json surfaces_of(const SurfaceCounts& counts) {
+Json surfaces_of(const session::SurfaceCounts& counts) {
   return {{"textured", counts.textured},
           {"specular", counts.specular},
           {"metallic", counts.metallic},
@@ -98,11 +97,11 @@ Json unused_of(const Scene& scene) {
   return unused;
 }
 
-Json lights_of(const Scene& scene, const SceneSummary& summary) {
+Json lights_of(const Scene& scene, const session::SceneSummary& summary) {
   Json lights = Json::array();
   for (const WorldLight& placed : summary.lights) {
     const Light& light = scene.lights[static_cast<std::size_t>(placed.light)];
-    Json entry{{"name", light.name}, {"type", light_type_name(light.type)}};
+    Json entry{{"name", light.name}, {"type", session::light_type_name(light.type)}};
     if (light.type != LightType::directional) entry["position_m"] = list(placed.position);
     if (light.type != LightType::point) entry["direction"] = list(placed.direction);
     entry["color"] = list(light.color);
@@ -151,7 +150,7 @@ Json shown_of(const Scene& scene) {
 }
 
 Json describe(const Scene& scene, const InfoOptions& options) {
-  const SceneSummary summary = summarize_scene(scene);
+  const session::SceneSummary summary = session::summarize_scene(scene);
   Json json{{"file", options.scene}, {"name", scene.name}, {"counts", counts_of(scene, summary)}};
   json["bounds_m"] = nullptr;
   if (summary.bounds)
@@ -235,11 +234,11 @@ Expected<void> add_metered(const InfoOptions& options, Json& json) {
   of_scene.file = options.scene;
   of_scene.import = options.import;
   of_scene.meter_exposure = true;
-  const auto plan = plan_scene(of_scene);
-  if (!plan) return tl::unexpected(plan.error());
+  const auto staged = session::stage_scene(of_scene);
+  if (!staged) return tl::unexpected(staged.error());
   for (const shade::Tone tone : shade::tones)
     json["shown"][fmt::format("auto_{}", shade::tone_name(tone))] =
-        (*plan->display.exposures)[static_cast<std::size_t>(tone)];
+        (*staged->display.exposures)[static_cast<std::size_t>(tone)];
   return {};
 }
 

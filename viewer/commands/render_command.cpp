@@ -22,7 +22,6 @@
 #include "shared/files_apart.h"
 #include "shared/render_files.h"
 #include "shared/render_plan.h"
-#include "shared/scene_choice.h"
 #include "shell/console.h"
 #include "shell/draw_limit.h"
 #include "shell/exit_codes.h"
@@ -71,15 +70,12 @@ public:
   }
 
   Expected<void> run() {
-    auto raster = render::FrameRaster::create(options_.raster);
-    if (!raster) return tl::unexpected(raster.error());
-    render::Renderer renderer = render::Renderer::create(std::move(*raster), plan_.scene);
-    if (plan_.environment) renderer.set_environment(*plan_.environment);
-    if (!options_.scene.edits.materials.empty())
-      renderer.set_materials(stage::materials_of(plan_.scene, options_.scene.edits));
+    auto session = open_session(plan_, options_);
+    if (!session) return tl::unexpected(session.error());
     FrameGeometry first_frame;
-    evaluate_frame(plan_.scene, plan_.clip, plan_.frames.front().time_s, first_frame);
-    auto settings = describe_render(plan_, options_, raster_names(renderer.raster()), first_frame);
+    const session::StagedScene& staged = *plan_.staged;
+    evaluate_frame(staged.scene, staged.clip, plan_.frames.front().time_s, first_frame);
+    auto settings = describe_render(plan_, options_, raster_names(session->renderer().raster()), first_frame);
     const auto sources = describe_sources(plan_, options_);
     if (!sources) return tl::unexpected(sources.error());
     settings.insert(settings.end(), sources->begin(), sources->end());
@@ -90,7 +86,7 @@ public:
     parallel::JobQueue files(most_waiting);
     Progress progress(static_cast<int>(frames_.size()), options_.quiet);
     for (const PlannedFrame& frame : frames_) {
-      const auto drawn = draw(renderer, frame, progress, files);
+      const auto drawn = draw(*session, frame, progress, files);
       if (is_stop(drawn)) break;
       if (!drawn) return drawn;
       progress.show(static_cast<int>(drawn_.size()));
@@ -125,30 +121,22 @@ private:
   static constexpr std::size_t most_waiting = 2, results = most_waiting + 2;
 
   /// Draws the frame with settings_, from its time to the picture; what that took is in `result`.
-  Expected<void> draw_once(render::Renderer& renderer, const PlannedFrame& planned, Progress& progress,
+  Expected<void> draw_once(session::Session& session, const PlannedFrame& planned, Progress& progress,
                            const StopFlag& stop, render::FrameResult& result) {
-    const auto begin = begun_ = Clock::now();
-    evaluate_frame(plan_.scene, plan_.clip, planned.time_s, input_.geometry);
-    stage::apply_node_edits(plan_.scene, options_.scene.edits, input_.geometry);
-    input_.lights = stage::placed_lights(plan_.scene, options_.scene.edits, plan_.clip, planned.time_s);
-    input_.view = view_of(plan_, options_.scene, planned.time_s, plan_.size);
-    const double evaluate_ms = milliseconds(Clock::now() - begin);
+    begun_ = Clock::now();
+    session.place(planned.time_s, plan_.rays(planned.time_s));
     const auto on_progress = [&](std::string_view what, double done) { progress.show_building(what, done); };
-    if (auto drawn = renderer.render_frame(input_, settings_, result, on_progress, &stop); !drawn)
-      return drawn;
-    result.timings.evaluate_ms = evaluate_ms;
-    result.timings.total_ms = milliseconds(Clock::now() - begin);
-    return {};
+    return session.draw(settings_, result, on_progress, &stop);
   }
 
   /// The same with the smallest errors that fit into --budget.
-  Expected<void> draw_within_budget(render::Renderer& renderer, const PlannedFrame& planned,
+  Expected<void> draw_within_budget(session::Session& session, const PlannedFrame& planned,
                                     Progress& progress, render::FrameResult& result) {
     std::vector<std::string> notes;  // of tries that are given up, too: each is said only once
     const auto draw = [&](std::size_t rung, double limit_ms) -> Expected<double> {
       set_errors(choice_, ladder_[rung], settings_);
       const DrawLimit limit(limit_ms, stop_.flag());
-      auto drawn = draw_once(renderer, planned, progress, limit.flag(), tried_);
+      auto drawn = draw_once(session, planned, progress, limit.flag(), tried_);
       if (!drawn && is_stop(drawn) && !stop_.flag().requested())
         return std::numeric_limits<double>::infinity();
       if (!drawn) return tl::unexpected(drawn.error());
@@ -173,17 +161,17 @@ private:
     return {};
   }
 
-  Expected<void> draw(render::Renderer& renderer, const PlannedFrame& planned, Progress& progress,
+  Expected<void> draw(session::Session& session, const PlannedFrame& planned, Progress& progress,
                       parallel::JobQueue& files) {
     render::FrameResult& result = results_[drawn_.size() % results];
-    auto drawn = budget_ ? draw_within_budget(renderer, planned, progress, result)
-                         : draw_once(renderer, planned, progress, stop_.flag(), result);
+    auto drawn = budget_ ? draw_within_budget(session, planned, progress, result)
+                         : draw_once(session, planned, progress, stop_.flag(), result);
     if (!drawn) return drawn;
     if (!options_.quiet) progress.print_notes(result.notes);
 
     render::FrameRecord record{planned.frame, planned.time_s, result.timings,  result.stats,
                                result.soft,   result.ao,      result.antialias};
-    record.asked = render::asked_stages(settings_, renderer.raster().is_gl());
+    record.asked = render::asked_stages(settings_, session.renderer().raster().is_gl());
     if (choice_.soft) record.soft_error = settings_.soft.error_255;
     if (choice_.ao) record.ao_error = settings_.ao.error_255;
     if (budget_) {
@@ -208,7 +196,6 @@ private:
   StopSignals& stop_;
   RenderOutput output_;
   std::vector<PlannedFrame> frames_;
-  render::FrameInput input_;
   std::array<render::FrameResult, results> results_;
   std::vector<TimedFrame> drawn_;
   bool failed_to_write_ = false;
@@ -259,10 +246,10 @@ Expected<int> render(const RenderOptions& options) {
   if (!plan) return tl::unexpected(plan.error());
   if (!options.quiet) {
     print_warnings(options.warnings);
-    print_warnings(plan->scene.warnings);
+    print_warnings(plan->staged->scene.warnings);
   }
   if (auto prepared = prepare_folders(options); !prepared) return tl::unexpected(prepared.error());
-  std::vector<std::filesystem::path> inputs = plan->inputs;
+  std::vector<std::filesystem::path> inputs = plan->staged->inputs;
   if (!options.config.empty()) inputs.emplace_back(options.config);
   if (auto apart = check_files_apart(inputs, files_of_render(*plan, options)); !apart)
     return tl::unexpected(apart.error());

@@ -59,14 +59,14 @@ Expected<std::vector<render::LogSetting>> describe_sources(const RenderPlan& pla
   const auto program = io::file_hash("/proc/self/exe");
   if (!program) return tl::unexpected(program.error());
   std::string hashes;
-  for (const auto& file : plan.inputs) {
+  for (const auto& file : plan.staged->inputs) {
     const auto hash = io::file_hash(file);
     if (!hash) return tl::unexpected(hash.error());
     hashes += *hash;
   }
   std::vector<render::LogSetting> list{
       {"program", fmt::format("tenebra {} {}", TENEBRA_VERSION, *program)},
-      {"input_files", fmt::format("{}, {}", plan.inputs.size(), io::text_hash(hashes))},
+      {"input_files", fmt::format("{}, {}", plan.staged->inputs.size(), io::text_hash(hashes))},
       {"fps", fmt::format("{}", options.scene.fps)},
       {"outputs", outputs_text(options)}};
   if (options.scene.time_s) list.push_back({"time", fmt::format("{} s", *options.scene.time_s)});

@@ -16,9 +16,9 @@ std::string vector(glm::vec3 v) {
   return fmt::format("{},{},{}", v.x, v.y, v.z);
 }
 
-std::string camera_text(const ScenePlan& plan, const SceneOptions& options) {
-  std::string text =
-      fmt::format("{} ({})", plan.camera, plan.scene.cameras[static_cast<std::size_t>(plan.camera)].name);
+std::string camera_text(const session::StagedScene& staged, const SceneOptions& options) {
+  std::string text = fmt::format("{} ({})", staged.camera,
+                                 staged.scene.cameras[static_cast<std::size_t>(staged.camera)].name);
   if (options.eye) {
     text = fmt::format("eye {} look-at {} up {}", vector(*options.eye), vector(options.look_at),
                        vector(options.up));
@@ -26,9 +26,9 @@ std::string camera_text(const ScenePlan& plan, const SceneOptions& options) {
   return options.fov_deg ? fmt::format("{}, fov {} degrees", text, *options.fov_deg) : text;
 }
 
-std::string environment_text(const ScenePlan& plan, const SceneOptions& options) {
+std::string environment_text(const session::StagedScene& staged, const SceneOptions& options) {
   if (!options.environment.empty()) return options.environment;
-  return plan.environment ? "a soft sky" : "none";
+  return staged.environment ? "a soft sky" : "none";
 }
 
 std::string added_text(const stage::AddedParts& added) {
@@ -139,7 +139,8 @@ std::vector<render::LogSetting> describe_render(const RenderPlan& plan, const Re
   const render::RenderSettings& settings = plan.settings;
   const SimdLevel asked = settings.hard.simd;
   const SimdLevel simd = asked == SimdLevel::automatic ? best_simd_level() : asked;
-  const bool has_clip = plan.clip >= 0;
+  const session::StagedScene& staged = *plan.staged;
+  const bool has_clip = staged.clip >= 0;
   std::vector<render::LogSetting> list{
       {"machine", base::machine_description()},
       {"renderer", raster.renderer},
@@ -151,17 +152,17 @@ std::vector<render::LogSetting> describe_render(const RenderPlan& plan, const Re
       {"scene", options.scene.file},
       {"triangles", fmt::format("{}", first_frame.triangles.size())},
       {"dropped_non_finite", fmt::format("{}", first_frame.dropped_non_finite)},
-      {"clip", has_clip ? plan.scene.clips[static_cast<std::size_t>(plan.clip)].name : "none"},
+      {"clip", has_clip ? staged.scene.clips[static_cast<std::size_t>(staged.clip)].name : "none"},
       {"frames", frames_text(plan, options.scene.fps)},
-      {"camera", camera_text(plan, options.scene)},
+      {"camera", camera_text(staged, options.scene)},
       {"size", fmt::format("{}x{}", settings.width, settings.height)},
       {"cone_sides", fmt::format("{}", options.scene.import.cone_sides)},
-      {"transfer", plan.scene.transfer == Transfer::srgb ? "srgb" : "display"},
+      {"transfer", staged.scene.transfer == Transfer::srgb ? "srgb" : "display"},
       {"cast_all", options.scene.cast_all ? "yes" : "no"},
       {"cutout_limit", fmt::format("{}", options.scene.cutout_limit)},
       {"surfaces", options.scene.plain ? "plain" : "full"},
-      {"environment", environment_text(plan, options.scene)},
-      {"added", added_text(plan.added)},
+      {"environment", environment_text(staged, options.scene)},
+      {"added", added_text(staged.added)},
   };
   for (render::LogSetting& setting : describe_method(settings)) list.push_back(std::move(setting));
   if (options.budget_ms) {
@@ -179,7 +180,7 @@ std::vector<render::LogSetting> describe_render(const RenderPlan& plan, const Re
   for (const std::string& name : options.scene.no_cast) list.push_back({"no_cast", name});
   for (const auto& folder : options.scene.import.texture_paths)
     list.push_back({"texture_path", folder.string()});
-  for (const std::string& warning : plan.scene.warnings) list.push_back({"warning", warning});
+  for (const std::string& warning : staged.scene.warnings) list.push_back({"warning", warning});
   return list;
 }
 

@@ -16,7 +16,6 @@
 #include "options/raster_options.h"
 #include "options/scene_arguments.h"
 #include "shared/files_apart.h"
-#include "shared/scene_choice.h"
 #include "shell/console.h"
 #include "shell/memory_limit.h"
 #include "shell/progress.h"
@@ -65,28 +64,28 @@ struct TradeOptions {
 };
 
 /// Whether some light has an area, or gets one.
-bool has_area_light(const RenderPlan& plan, const MethodOptions& method) {
+bool has_area_light(const RenderPlan& plan, const RenderOptions& options) {
+  const std::vector<Light> lights = stage::lights_of(plan.staged->scene, options.scene.edits);
   const render::AreaLightSettings& area = plan.settings.area_lights;
   const auto own = [](const auto& list, std::size_t i) { return i < list.size() && list[i].has_value(); };
-  for (std::size_t i = 0; i < plan.scene.lights.size(); ++i) {
-    const Light& light = plan.scene.lights[i];
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const Light& light = lights[i];
     const float sun_deg =
         own(area.own_sun_deg, i) ? *area.own_sun_deg[i] : area.sun_deg.value_or(light.diameter_deg);
     if (light.type == LightType::area_rect || light.type == LightType::area_disk || own(area.own_size_m, i) ||
         (light.type == LightType::directional && sun_deg > 0))
       return true;
   }
-  return method.light_size || area.emissive_quads;
+  return options.method.light_size || area.emissive_quads;
 }
 
 /// Frames in the middle of `parts` equal parts of `count` frames from `first` on.
-std::vector<PlannedFrame> spread_frames(const RenderPlan& plan, const SceneOptions& options, int first,
-                                        int count, int parts) {
+std::vector<PlannedFrame> spread_frames(const RenderPlan& plan, int first, int count, int parts) {
   const int wanted = std::min(count, parts);
   std::vector<PlannedFrame> frames;
   for (int i = 0; i < wanted; ++i) {
     const int frame = first + static_cast<int>((2LL * i + 1) * count / (2LL * wanted));
-    frames.push_back({frame, time_of_frame(plan.scene, plan.clip, frame, options.fps)});
+    frames.push_back({frame, plan.staged->time_of_frame(frame)});
   }
   return frames;
 }
@@ -100,10 +99,8 @@ Expected<RenderPlan> plan_trade(TradeOptions& options) {
   auto plan = plan_render(options.render);
   if (!plan) return plan;
   if (!options.render.frames && !options.render.scene.time_s)
-    plan->frames = spread_frames(*plan, options.render.scene, 0,
-                                 frames_of_clip(plan->scene, plan->clip, options.render.scene.fps),
-                                 frames_without_option);
-  if (!options.shadows_given && has_area_light(*plan, options.render.method))
+    plan->frames = spread_frames(*plan, 0, plan->staged->frames(), frames_without_option);
+  if (!options.shadows_given && has_area_light(*plan, options.render))
     plan->settings.shadows = options.render.method.render.shadows = render::ShadowMode::soft;
   return plan;
 }
@@ -173,27 +170,23 @@ void print_command(const TradeOptions& options, const TradeHeading& heading, con
 
 /// Frames between the first and the last that the user asks for, or of all.
 std::vector<PlannedFrame> more_frames(const RenderPlan& plan, const TradeOptions& options) {
-  const SceneOptions& scene = options.render.scene;
   const bool given = options.render.frames.has_value();
   const int first = given ? plan.frames.front().frame : 0,
-            count =
-                given ? plan.frames.back().frame - first : frames_of_clip(plan.scene, plan.clip, scene.fps);
-  return spread_frames(plan, scene, first, count, frames_not_tried);
+            count = given ? plan.frames.back().frame - first : plan.staged->frames();
+  return spread_frames(plan, first, count, frames_not_tried);
 }
 
 /// It refers to the arguments.
 TradeRequest request_of(const TradeOptions& options, const RenderPlan& plan) {
-  const SceneOptions& scene = options.render.scene;
   TradeRequest request;
-  request.scene = &plan;
-  request.clip = plan.clip;
+  request.scene = plan.staged;
+  request.clip = plan.staged->clip;
   request.frames = plan.frames;
   if (plan.frames.size() > 1) request.more_frames = more_frames(plan, options);
   request.settings = plan.settings;
   request.raster = options.render.raster;
-  request.lights = plan.scene.lights;
-  request.edits = scene.edits;
-  request.view = [&](double time_s) { return view_of(plan, scene, time_s, plan.size); };
+  request.edits = options.render.scene.edits;
+  request.view = [&](double time_s) { return plan.rays(time_s); };
   request.axes = axes_of(plan.settings, options.given);
   request.repeats = options.repeats;
   if (options.budget_ms) request.aim_s *= 2.0 / 3;  // the rest is for timing those that may fit
@@ -233,12 +226,12 @@ Expected<int> trade(TradeOptions& options) {
   if (auto limited = limit_memory(options.render.memory_mb); !limited) return tl::unexpected(limited.error());
   const auto plan = plan_trade(options);
   if (!plan) return tl::unexpected(plan.error());
-  if (!options.render.quiet) print_warnings(plan->scene.warnings);
+  if (!options.render.quiet) print_warnings(plan->staged->scene.warnings);
   if (!options.output.empty()) {
     const std::filesystem::path folder = std::filesystem::path(options.output).parent_path();
     if (!folder.empty() && !std::filesystem::is_directory(folder))
       return base::fail("cannot write {}: {} is not a folder", options.output, folder.string());
-    std::vector<std::filesystem::path> inputs = plan->inputs;
+    std::vector<std::filesystem::path> inputs = plan->staged->inputs;
     if (!options.render.config.empty()) inputs.emplace_back(options.render.config);
     if (auto apart = check_files_apart(inputs, OutputName{"-o", options.output}); !apart)
       return tl::unexpected(apart.error());

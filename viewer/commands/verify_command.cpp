@@ -19,7 +19,6 @@
 #include "render/shadow_lights.h"
 #include "shared/files_apart.h"
 #include "shared/render_plan.h"
-#include "shared/scene_choice.h"
 #include "shell/console.h"
 #include "shell/memory_limit.h"
 #include "shell/progress.h"
@@ -88,7 +87,7 @@ std::vector<render::LogSetting> describe_run(const VerifyOptions& options, const
       {"program", "tenebra " TENEBRA_VERSION},
       {"machine", base::machine_description()},
       {"scene", options.render.scene.file},
-      {"size", fmt::format("{}x{}", plan.size.width, plan.size.height)},
+      {"size", fmt::format("{}x{}", plan.settings.width, plan.settings.height)},
       {"raster", raster_names(raster).raster},
       {"variant", std::string(variant_name(plan.settings.hard.variant))},
       {"cull", plan.settings.hard.cull_front ? "front" : "none"},
@@ -107,14 +106,13 @@ public:
 
   Expected<void> run(StopSignals& stop) {
     base::Stopwatch watch;
-    auto raster = render::FrameRaster::create(options_.render.raster);
-    if (!raster) return tl::unexpected(raster.error());
-    render::Renderer renderer = render::Renderer::create(std::move(*raster), plan_.scene);
-    verification_.settings = describe_run(options_, plan_, renderer.raster());
+    auto session = open_session(plan_, options_.render);
+    if (!session) return tl::unexpected(session.error());
+    verification_.settings = describe_run(options_, plan_, session->renderer().raster());
     verification_.planned_frames = plan_.frames.size();
     Progress progress(static_cast<int>(plan_.frames.size()), options_.render.quiet);
     for (const PlannedFrame& frame : plan_.frames) {
-      const auto checked = check_frame(renderer, frame, stop);
+      const auto checked = check_frame(*session, frame, stop);
       if (!checked && !is_stop(checked)) return checked;
       if (stop.flag().requested()) break;
       progress.show(static_cast<int>(++verification_.frames));
@@ -126,43 +124,41 @@ public:
   const Verification& verification() const { return verification_; }
 
 private:
-  Expected<void> check_frame(render::Renderer& renderer, const PlannedFrame& planned, StopSignals& stop) {
-    const stage::SceneEdits& edits = options_.render.scene.edits;
-    evaluate_frame(plan_.scene, plan_.clip, planned.time_s, input_.geometry);
-    stage::apply_node_edits(plan_.scene, edits, input_.geometry);
-    input_.lights = stage::placed_lights(plan_.scene, edits, plan_.clip, planned.time_s);
-    input_.view = view_of(plan_, options_.render.scene, planned.time_s, plan_.size);
+  Expected<void> check_frame(session::Session& session, const PlannedFrame& planned, StopSignals& stop) {
+    session.place(planned.time_s, plan_.rays(planned.time_s));
     const render::RenderSettings settings = checked_settings(plan_);
-    auto drawn = renderer.render_frame(input_, settings, result_, {}, &stop.flag());
+    auto drawn = session.draw(settings, result_, {}, &stop.flag());
     if (!drawn) return drawn;
-    compute_visible_points(renderer.triangle_ids(), settings.width, settings.height, input_.view,
-                           triangle_view(input_.geometry), points_);
+    const render::FrameInput& input = session.placed();
+    compute_visible_points(session.renderer().triangle_ids(), settings.width, settings.height, input.view,
+                           triangle_view(input.geometry), points_);
     for (const render::LightMask& mask : result_.masks) {
-      for (const render::DrawnLight& light : renderer.drawn_lights())
-        if (light.number == mask.light) check_light(planned.frame, light, mask, settings, stop);
+      for (const render::DrawnLight& light : session.renderer().drawn_lights())
+        if (light.number == mask.light) check_light(input, planned.frame, light, mask, settings, stop);
     }
     return {};
   }
 
-  void check_light(int frame, const render::DrawnLight& light, const render::LightMask& mask,
-                   const render::RenderSettings& settings, StopSignals& stop) {
+  void check_light(const render::FrameInput& input, int frame, const render::DrawnLight& light,
+                   const render::LightMask& mask, const render::RenderSettings& settings, StopSignals& stop) {
     std::vector<std::uint8_t> casters;
-    const TriangleView triangles = render::casters_of(plan_.scene, input_.geometry, light, casters);
+    const TriangleView triangles = render::casters_of(plan_.staged->scene, input.geometry, light, casters);
     const auto pixels = oracle::spread_samples(
         points_.triangles, options_.samples.value_or(light.area ? usual_fractions : all_samples),
         static_cast<std::uint64_t>(frame) << 32 | static_cast<std::uint64_t>(mask.light));
     with_threads(settings.threads, [&] {
       if (light.area)
-        check_fractions(frame, light, triangles, mask, pixels, stop);
+        check_fractions(input.view, frame, light, triangles, mask, pixels, stop);
       else
-        check_mask(frame, light, triangles, mask, pixels, stop);
+        check_mask(input.view, frame, light, triangles, mask, pixels, stop);
     });
   }
 
-  void check_mask(int frame, const render::DrawnLight& light, const TriangleView& triangles,
-                  const render::LightMask& mask, const std::vector<std::size_t>& pixels, StopSignals& stop) {
+  void check_mask(const ViewRays& view, int frame, const render::DrawnLight& light,
+                  const TriangleView& triangles, const render::LightMask& mask,
+                  const std::vector<std::size_t>& pixels, StopSignals& stop) {
     base::Stopwatch watch;
-    const oracle::ExactShadow exact(input_.view, triangles, render::shadow_light(light.light, light.placed),
+    const oracle::ExactShadow exact(view, triangles, render::shadow_light(light.light, light.placed),
                                     plan_.settings.hard);
     CheckedMask checked{.frame = frame, .light = mask.light, .width = plan_.settings.width, .check = {}};
     checked.check = oracle::check_mask(exact, points_, mask.mask.pixels, pixels, &stop.flag());
@@ -170,14 +166,14 @@ private:
     verification_.masks.push_back(std::move(checked));
   }
 
-  void check_fractions(int frame, const render::DrawnLight& light, const TriangleView& triangles,
-                       const render::LightMask& mask, const std::vector<std::size_t>& pixels,
-                       StopSignals& stop) {
+  void check_fractions(const ViewRays& view, int frame, const render::DrawnLight& light,
+                       const TriangleView& triangles, const render::LightMask& mask,
+                       const std::vector<std::size_t>& pixels, StopSignals& stop) {
     base::Stopwatch watch;
     const bool fast = plan_.settings.soft.precision == SoftPrecision::fast;
-    const oracle::ExactSoft front(input_.view, triangles, *light.area);
+    const oracle::ExactSoft front(view, triangles, *light.area);
     std::optional<oracle::ExactSoft> back;
-    if (render::shines_behind(light)) back.emplace(input_.view, triangles, *light.back);
+    if (render::shines_behind(light)) back.emplace(view, triangles, *light.back);
     CheckedFractions checked{.frame = frame,
                              .light = mask.light,
                              .width = plan_.settings.width,
@@ -193,7 +189,6 @@ private:
 
   const VerifyOptions& options_;
   const RenderPlan& plan_;
-  render::FrameInput input_;
   render::FrameResult result_;
   VisiblePoints points_;
   Verification verification_;
@@ -208,7 +203,7 @@ Expected<void> write_report(const std::string& path, const Verification& verific
 /// Fails before hours of work if the report cannot be written or would replace an input.
 Expected<void> check_report(const VerifyOptions& options, const RenderPlan& plan) {
   if (options.report.empty()) return {};
-  std::vector<std::filesystem::path> inputs = plan.inputs;
+  std::vector<std::filesystem::path> inputs = plan.staged->inputs;
   if (!options.render.config.empty()) inputs.emplace_back(options.render.config);
   return check_files_apart(inputs, OutputName{"--report", options.report});
 }
@@ -223,7 +218,7 @@ Expected<int> verify(const VerifyOptions& options) {
   if (plan->settings.shadows == render::ShadowMode::none)
     return base::fail(
         "found --shadows none, expected hard or soft: without shadows there is nothing to check");
-  if (!options.render.quiet) print_warnings(plan->scene.warnings);
+  if (!options.render.quiet) print_warnings(plan->staged->scene.warnings);
   if (auto apart = check_report(options, *plan); !apart) return tl::unexpected(apart.error());
   stop.be_orderly();
   Verifier verifier(options, *plan);

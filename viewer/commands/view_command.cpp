@@ -4,6 +4,7 @@
 #include "commands/command.h"
 #include "options/memory_option.h"
 #include "shared/bundled_scene.h"
+#include "shared/render_plan.h"
 #include "shell/last_words.h"
 #include "shell/memory_limit.h"
 #include "window/glfw_window.h"
@@ -26,16 +27,16 @@ constexpr const char* view_examples =
     "The window needs a display with OpenGL 3.3; tenebra render needs no display.";
 
 /// The scene, where options speak of its lights: what it does not have is said before a window opens.
-Expected<std::shared_ptr<const ScenePlan>> plan_with_lights(const ViewOptions& options) {
-  auto plan = plan_scene(options.scene);
-  if (!plan) return tl::unexpected(plan.error());
+Expected<std::shared_ptr<const session::StagedScene>> stage_with_lights(const ViewOptions& options) {
+  auto staged = session::stage_scene(options.scene);
+  if (!staged) return tl::unexpected(staged.error());
   const render::RenderSettings& render = options.method.render;
   const int light = render.area_lights.emissive_quads ? -1 : render.light;
-  if (auto checked = check_light(*plan, options.scene.edits, light, options.scene.time_s.value_or(0));
+  if (auto checked = check_light(*staged, options.scene.edits, light, options.scene.time_s.value_or(0));
       !checked) {
     return tl::unexpected(checked.error());
   }
-  return std::make_shared<const ScenePlan>(std::move(*plan));
+  return std::make_shared<const session::StagedScene>(std::move(*staged));
 }
 
 Expected<int> view(ViewOptions options) {
@@ -48,9 +49,9 @@ Expected<int> view(ViewOptions options) {
     options.scene.file = bundled->string();
   }
   if (options.method.render.light >= 0 || options.scene.edits != stage::SceneEdits{}) {
-    auto planned = plan_with_lights(options);
-    if (!planned) return tl::unexpected(planned.error());
-    options.plan = std::move(*planned);
+    auto staged = stage_with_lights(options);
+    if (!staged) return tl::unexpected(staged.error());
+    options.staged = std::move(*staged);
   }
   return run_window(options);
 }

@@ -171,8 +171,6 @@ render::RenderSettings bake_settings(const BakeOptions& options) {
   method.terminator = render::Terminator::flat;
   render::RenderSettings settings = method_settings(method, {}, {});
   settings.ao.mode = options.content == BakeContent::light ? AoMode::none : AoMode::adaptive;
-  settings.area_lights.own_size_m = stage::edited_sizes_m(options.scene.edits.lights);
-  settings.area_lights.own_sun_deg = stage::edited_suns_deg(options.scene.edits.lights);
   return settings;
 }
 

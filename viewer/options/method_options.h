@@ -2,13 +2,13 @@
 // render, view and trade share them.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "options/option_values.h"
 #include "render/quality.h"
+#include "settings/method_settings.h"
 #include "shell/command_line.h"
 
 namespace tenebra::viewer {
@@ -16,14 +16,8 @@ namespace tenebra::viewer {
 /// Samples per pixel of pictures; RenderSettings has 1, for callers that want masks.
 inline constexpr int standard_antialias = 4;
 
-/// Exposures by tone: what --exposure auto stands for.
-using AutoExposures = std::array<float, shade::tones.size()>;
-
-/// The properties of a scene that decide how it is shown.
-struct SceneDisplay {
-  Transfer transfer = Transfer::srgb;
-  std::optional<AutoExposures> exposures;  ///< none: not measured
-};
+using settings::AutoExposures;
+using settings::SceneDisplay;
 
 struct MethodOptions {
   render::RenderSettings render;                 ///< but for its size, tone and emission

@@ -9,14 +9,12 @@
 
 #include <tenebra/expected.h>
 #include <tenebra/simd_level.h>
+#include "settings/values.h"
 
 namespace tenebra::viewer {
 
-struct Size {
-  int width = 0;
-  int height = 0;
-};
-inline constexpr int largest_side_px = 16384;
+using settings::largest_side_px;
+using settings::Size;
 
 /// Width and height of an area light, in metres or in percent of the scene's diagonal.
 struct LightSize {

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace tenebra::viewer {
 
@@ -27,6 +28,11 @@ void print_error(fmt::format_string<Args...> format, Args&&... args) {
 /// What went wrong, as every failure is reported: one line, "tenebra: sentence."
 inline void print_failure(const std::string& sentence) {
   print_error("tenebra: {}{}\n", sentence, sentence.ends_with('.') ? "" : ".");
+}
+
+/// "warning: ..." on standard error, one line each.
+inline void print_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) print_error("warning: {}\n", warning);
 }
 
 }  // namespace tenebra::viewer

@@ -106,12 +106,12 @@ public:
 
   /// See time_setting.
   Expected<double> time(const TradePoint& point) {
-    auto renderer = make_renderer();
-    if (!renderer) return tl::unexpected(renderer.error());
+    auto session = open();
+    if (!session) return tl::unexpected(session.error());
     const bool still = request_.more_frames.empty();
     const auto& frames = still ? request_.frames : request_.more_frames;
     const render::RenderSettings settings = with_setting(request_.settings, request_.axes, point.setting);
-    if (const auto first = draw_frame(*renderer, frames.front(), settings); !first) return first;
+    if (const auto first = draw_frame(*session, frames.front(), settings); !first) return first;
     // Frames differ more than draws of one: more frames before more draws of each.
     const double draws = timing_s / std::max(point.ms / 1e3, 1e-4);  // that there is time for
     const std::size_t most = std::max(still ? still_timed : least_timed, frames.size()),
@@ -120,7 +120,7 @@ public:
     std::vector<double> times;
     for (std::size_t i = 0; i < count; ++i) {
       const auto ms =
-          median_ms(*renderer, frames[(2 * i + 1) * frames.size() / (2 * count)], settings, repeats);
+          median_ms(*session, frames[(2 * i + 1) * frames.size() / (2 * count)], settings, repeats);
       if (!ms) return ms;
       times.push_back(*ms);
       done(steps_ / double(count));
@@ -143,46 +143,33 @@ private:
     if (progress_) progress_(std::min(done_ / steps_, 1.0));
   }
 
-  Expected<render::Renderer> make_renderer() const {
-    auto raster = render::FrameRaster::create(request_.raster);
-    if (!raster) return tl::unexpected(raster.error());
-    const ScenePlan& plan = *request_.scene;
-    render::Renderer renderer = render::Renderer::create(std::move(*raster), plan.scene);
-    if (plan.environment) renderer.set_environment(*plan.environment);
-    renderer.set_lights(request_.lights);
-    if (!request_.edits.materials.empty())
-      renderer.set_materials(stage::materials_of(plan.scene, request_.edits));
-    return renderer;
+  Expected<session::Session> open() const {
+    return session::Session::open(request_.scene, request_.edits, request_.raster);
   }
 
-  Expected<double> draw_frame(render::Renderer& renderer, const PlannedFrame& planned,
+  Expected<double> draw_frame(session::Session& session, const PlannedFrame& planned,
                               const render::RenderSettings& settings) {
-    const Scene& scene = request_.scene->scene;
-    base::Stopwatch watch;
-    evaluate_frame(scene, request_.clip, planned.time_s, input_.geometry);
-    stage::apply_node_edits(scene, request_.edits, input_.geometry);
-    input_.lights = stage::placed_lights(scene, request_.edits, request_.clip, planned.time_s);
-    input_.view = request_.view(planned.time_s);
-    if (auto drawn = renderer.render_frame(input_, settings, result_, {}, &stop_); !drawn)
+    session.place(request_.clip, planned.time_s, request_.view(planned.time_s));
+    if (auto drawn = session.draw(settings, result_, {}, &stop_); !drawn)
       return tl::unexpected(drawn.error());
-    return watch.lap_ms();
+    return result_.timings.total_ms;
   }
 
-  /// All frames with one setting, in a renderer of its own: the first once more, as it builds what the others
+  /// All frames with one setting, in a session of its own: the first once more, as it builds what the others
   /// keep, or where that takes long the others alone are timed.
   Expected<Drawn> draw(const TradeSetting& setting) {
     const bool peak_is_own = forget_peak_memory();
-    auto renderer = make_renderer();
-    if (!renderer) return tl::unexpected(renderer.error());
+    auto session = open();
+    if (!session) return tl::unexpected(session.error());
     const render::RenderSettings settings = with_setting(request_.settings, request_.axes, setting);
-    const auto first = draw_frame(*renderer, request_.frames.front(), settings);
+    const auto first = draw_frame(*session, request_.frames.front(), settings);
     if (!first) return tl::unexpected(first.error());
     Drawn drawn;
     drawn.first_ms = *first;
     const bool slow = *first > slow_ms && request_.frames.size() > 1;
     if (slow) drawn.pictures.push_back(result_.image);
     for (const PlannedFrame& frame : std::span(request_.frames).subspan(slow ? 1 : 0)) {
-      const auto ms = median_ms(*renderer, frame, settings, request_.repeats);
+      const auto ms = median_ms(*session, frame, settings, request_.repeats);
       if (!ms) return tl::unexpected(ms.error());
       drawn.ms.push_back(*ms);
       drawn.pictures.push_back(result_.image);
@@ -192,12 +179,12 @@ private:
   }
 
   /// The median of at most so many draws; slow frames are drawn fewer times, as their times differ less.
-  Expected<double> median_ms(render::Renderer& renderer, const PlannedFrame& frame,
+  Expected<double> median_ms(session::Session& session, const PlannedFrame& frame,
                              const render::RenderSettings& settings, int repeats) {
     std::vector<double> ms;
     double sum_ms = 0;
     for (int i = 0; i < repeats && sum_ms < enough_ms; ++i) {
-      const auto took = draw_frame(renderer, frame, settings);
+      const auto took = draw_frame(session, frame, settings);
       if (!took) return took;
       ms.push_back(*took);
       sum_ms += *took;
@@ -232,9 +219,9 @@ private:
   }
 
   Expected<TradeSweep> sweep_axes() {
-    auto renderer = make_renderer();
-    if (!renderer) return tl::unexpected(renderer.error());
-    sweeping_.emplace(std::move(*renderer));
+    auto session = open();
+    if (!session) return tl::unexpected(session.error());
+    sweeping_.emplace(std::move(*session));
     const TradeSetting start = coarsest(request_.axes);
     const auto warmed = draw_frame(*sweeping_, request_.frames[middle_frame()],
                                    with_setting(request_.settings, request_.axes, start));
@@ -309,7 +296,7 @@ private:
   }
 
   /// How far two coarse settings are apart in the one of some frames where it is most.
-  Expected<double> worst_coarse_error(render::Renderer& renderer, std::span<const PlannedFrame> frames,
+  Expected<double> worst_coarse_error(session::Session& session, std::span<const PlannedFrame> frames,
                                       std::size_t step) {
     const TradeAxes& axes = request_.axes;
     const auto second = [](const auto& values) {
@@ -319,10 +306,10 @@ private:
                        finer{second(axes.antialias), second(axes.soft_errors), second(axes.ao_errors)};
     double worst = 0;
     for (std::size_t i = step / 2; i < frames.size(); i += step) {
-      const auto drawn = draw_frame(renderer, frames[i], with_setting(request_.settings, axes, coarse));
+      const auto drawn = draw_frame(session, frames[i], with_setting(request_.settings, axes, coarse));
       if (!drawn) return drawn;
       const io::Image8 picture = result_.image;
-      const auto again = draw_frame(renderer, frames[i], with_setting(request_.settings, axes, finer));
+      const auto again = draw_frame(session, frames[i], with_setting(request_.settings, axes, finer));
       if (!again) return again;
       worst = std::max(worst, rms_difference(picture, result_.image));
     }
@@ -332,16 +319,16 @@ private:
   /// Errors of all settings grow and shrink together from frame to frame: what coarse ones show goes for all.
   Expected<void> measure_spread(TradeResult& result) {
     if (request_.more_frames.empty()) return {};
-    auto renderer = make_renderer();
-    if (!renderer) return tl::unexpected(renderer.error());
+    auto session = open();
+    if (!session) return tl::unexpected(session.error());
     const Clock::time_point begun = Clock::now();
-    const auto tried = worst_coarse_error(*renderer, request_.frames, 1);
+    const auto tried = worst_coarse_error(*session, request_.frames, 1);
     if (!tried) return tl::unexpected(tried.error());
     const double took_s = std::chrono::duration<double>(Clock::now() - begun).count(),
                  all_s = took_s * double(request_.more_frames.size()) / double(request_.frames.size());
     const std::size_t step = std::min(std::size_t(std::ceil(std::max(all_s / spread_s, 1.0))),
                                       request_.more_frames.size());  // one at least
-    const auto more = worst_coarse_error(*renderer, request_.more_frames, step);
+    const auto more = worst_coarse_error(*session, request_.more_frames, step);
     if (!more) return tl::unexpected(more.error());
     if (*tried > 0) result.spread = std::max(1.0, *more / *tried);
     return {};
@@ -369,8 +356,7 @@ private:
   const TradeRequest& request_;
   const std::function<void(double)>& progress_;
   const StopFlag& stop_;
-  std::optional<render::Renderer> sweeping_;
-  render::FrameInput input_;
+  std::optional<session::Session> sweeping_;
   render::FrameResult result_;
   io::Image8 coarsest_picture_;  ///< of the frame in the middle
   double steps_ = 1, done_ = 0;

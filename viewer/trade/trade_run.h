@@ -2,22 +2,22 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "shared/render_plan.h"
-#include "stage/edits/scene_edits.h"
 #include "trade/trade_settings.h"
 
 namespace tenebra::viewer {
 
-/// A setting that was drawn by itself, in a renderer of its own.
+/// A setting that was drawn by itself, in a session of its own.
 struct TradedSetting {
   TradePoint point;                  ///< ms: median over the frames; error: RMS over all of their pixels
   std::vector<double> frames_ms;     ///< of each frame that was timed: of slow ones not the first
   std::vector<double> frame_errors;  ///< of each, RMS, levels of 255
   double worst_error = 0;            ///< of the frame that is off most, RMS, levels of 255
-  double first_frame_ms = 0;         ///< of a renderer that has drawn none
+  double first_frame_ms = 0;         ///< of a session that has drawn none
   double peak_mb =
       0;            ///< memory of the program while it was drawn, 2^20 bytes; 0 where the system does not say
   io::Image8 crop;  ///< of the frame in the middle
@@ -33,15 +33,14 @@ struct TradeResult {
   int crop_x = 0, crop_y = 0;           ///< where the crops are, pixels
 };
 
-/// What is drawn and how often. The scene outlives the run.
+/// What is drawn and how often.
 struct TradeRequest {
-  const ScenePlan* scene = nullptr;
+  std::shared_ptr<const session::StagedScene> scene;
   int clip = -1;
   std::vector<PlannedFrame> frames;
   std::vector<PlannedFrame> more_frames;  ///< not tried: two coarse settings give the spread on them
   render::RenderSettings settings;        ///< what all share, and what is no choice
   render::RasterChoice raster;
-  std::vector<Light> lights;  ///< the scene's, with their edits
   stage::SceneEdits edits;
   std::function<ViewRays(double time_s)> view;
   TradeAxes axes;

@@ -45,7 +45,7 @@ void EventReport::line(const std::string& text) {
   (void)std::fflush(file_.get());
 }
 
-void EventReport::opened(const std::string& file, const ScenePlan& scene) {
+void EventReport::opened(const std::string& file, const session::StagedScene& scene) {
   if (!file_) return;
   line(dump({{"event", "opened"},
              {"file", file},

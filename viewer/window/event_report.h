@@ -16,7 +16,7 @@ public:
   static Expected<EventReport> create(const std::string& path);  ///< "": none
 
   bool is_on() const { return file_ != nullptr; }
-  void opened(const std::string& file, const ScenePlan& scene);
+  void opened(const std::string& file, const session::StagedScene& scene);
   void request(const FrameRequest& request);
   void picture(const Picture& picture, std::uint64_t number);
   void explained(const PictureAnswer& answer);

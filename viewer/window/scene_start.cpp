@@ -1,6 +1,6 @@
 #include "window/scene_start.h"
 
-#include "shared/scene_summary.h"
+#include "session/scene_summary.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -9,8 +9,8 @@ using Wall = AnimationClock::Wall;
 
 constexpr float flight_share = 0.1f;  // of the scene's diagonal per second
 
-const Clip* clip_of(const ScenePlan& plan, int clip) {
-  return clip < 0 ? nullptr : &plan.scene.clips[static_cast<std::size_t>(clip)];
+const Clip* clip_of(const session::StagedScene& staged, int clip) {
+  return clip < 0 ? nullptr : &staged.scene.clips[static_cast<std::size_t>(clip)];
 }
 
 FreeCamera start_camera(const SceneOptions& options) {
@@ -42,7 +42,7 @@ void take_light(ViewState& state, int chosen) {
 }
 
 void measure_scene(ViewState& state) {
-  const auto bounds = summarize_scene(state.scene->scene).bounds;
+  const auto bounds = session::summarize_scene(state.scene->scene).bounds;
   state.diagonal_m = bounds ? glm::distance(bounds->low, bounds->high) : 1.0f;
   state.centre = bounds ? 0.5f * (bounds->low + bounds->high) : glm::vec3(0.0f);
   state.half_size_m = bounds ? 0.5f * (bounds->high - bounds->low) : glm::vec3(0.5f);
@@ -51,10 +51,10 @@ void measure_scene(ViewState& state) {
 
 }  // namespace
 
-void start_scene(ViewState& state, std::shared_ptr<const ScenePlan> plan, SceneOptions scene,
+void start_scene(ViewState& state, std::shared_ptr<const session::StagedScene> staged, SceneOptions scene,
                  const ViewOptions& given, Wall now) {
   const bool first = !state.scene;
-  state.scene = std::move(plan);
+  state.scene = std::move(staged);
   state.options = std::move(scene);
   state.clip = state.scene->clip;
   state.camera = state.scene->camera;

@@ -5,9 +5,9 @@
 
 namespace tenebra::viewer {
 
-/// `state` for `plan`, which was opened with `scene`. The first scene starts as `given` by the command line,
-/// others go on as the scene before.
-void start_scene(ViewState& state, std::shared_ptr<const ScenePlan> plan, SceneOptions scene,
+/// `state` for `staged`, which was opened with `scene`. The first scene starts as `given` by the command
+/// line, others go on as the scene before.
+void start_scene(ViewState& state, std::shared_ptr<const session::StagedScene> staged, SceneOptions scene,
                  const ViewOptions& given, AnimationClock::Wall now);
 
 }  // namespace tenebra::viewer

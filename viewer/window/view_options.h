@@ -28,7 +28,7 @@ struct ViewOptions {
   double preview_ms = default_preview_ms;
   bool fixed_step = false;
   CameraMode navigate = CameraMode::scene;
-  std::shared_ptr<const ScenePlan> plan;  ///< of `scene`, if it is there already
+  std::shared_ptr<const session::StagedScene> staged;  ///< of `scene`, if it is there already
   std::optional<std::string> compare_text;
   std::optional<MethodOptions> compare;  ///< slot B, of compare_text
   CompareView show = CompareView::wipe;

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "options/method_options.h"
-#include "shared/scene_plan.h"
+#include "session/staged_scene.h"
 #include "window/files/user_settings.h"
 #include "window/frames/frame_request.h"
 #include "window/panels/open_dialog.h"
@@ -21,7 +21,7 @@ enum class CompareView { a, b, side_by_side, wipe, difference };
 
 struct ViewState {
   SceneOptions options;  ///< of the present scene
-  std::shared_ptr<const ScenePlan> scene;
+  std::shared_ptr<const session::StagedScene> scene;
   int clip = -1;
   AnimationClock clock;
 

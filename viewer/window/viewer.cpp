@@ -39,8 +39,8 @@ Viewer::Viewer(ViewOptions options, WindowGl& gl, EventReport report, const std:
   state_.size = options_.scene.size;
   state_.panel = options_.panel;
   state_.preview_ms = options_.preview_ms;
-  if (options_.plan) {
-    take_scene({options_.scene, std::move(options_.plan)});
+  if (options_.staged) {
+    take_scene({options_.scene, std::move(options_.staged)});
   } else {
     worker_.open(options_.scene);
   }

@@ -4,6 +4,7 @@
 
 #include <tenebra/tint.h>
 
+#include "session/session.h"
 #include "window/frames/within_memory.h"
 
 namespace tenebra::viewer {
@@ -22,26 +23,26 @@ public:
     const SeeThrough see_through = e.settings.see_through;
     const bool same = scene_ == picture.scene && clip_ == e.clip && time_s_ == e.time_s &&
                       nodes_ == e.edits.nodes && see_through_ == see_through;
-    if (same) return geometry_;
-    evaluate_frame(picture.scene->scene, e.clip, e.time_s, geometry_);
-    stage::apply_node_edits(picture.scene->scene, e.edits, geometry_);
-    if (see_through != SeeThrough::tint && !geometry_.see_through.empty())
-      cast_see_through(see_through, geometry_);
+    if (same) return input_.geometry;
+    session::evaluate(picture.scene->scene, e.edits, e.clip, e.time_s, input_);
+    FrameGeometry& geometry = input_.geometry;
+    if (see_through != SeeThrough::tint && !geometry.see_through.empty())
+      cast_see_through(see_through, geometry);
     scene_ = picture.scene;
     clip_ = e.clip;
     time_s_ = e.time_s;
     nodes_ = e.edits.nodes;
     see_through_ = see_through;
-    return geometry_;
+    return geometry;
   }
 
 private:
-  std::shared_ptr<const ScenePlan> scene_;
+  std::shared_ptr<const session::StagedScene> scene_;
   int clip_ = -1;
   double time_s_ = 0;
   std::map<int, stage::NodeEdit> nodes_;
   SeeThrough see_through_ = SeeThrough::tint;
-  FrameGeometry geometry_;
+  render::FrameInput input_;
 };
 
 PictureAnswer answer(PictureQuestion question, PictureGeometry& geometries) {

@@ -1,10 +1,11 @@
-// From a request to a picture: the viewer's use of the Renderer, the same as that of `tenebra render`. It
+// From a request to a picture: the viewer's use of a session, the same as that of `tenebra render`. It
 // needs neither the window nor threads: everything of one FrameMaker happens on one thread.
 #pragma once
 
 #include <memory>
 #include <optional>
 
+#include "session/session.h"
 #include "window/frames/frame_request.h"
 #include "window/frames/preview_levels.h"
 
@@ -30,23 +31,20 @@ public:
   std::optional<glm::vec3> visible_point(glm::dvec2 place);
 
   /// Null before the first picture.
-  const render::FrameRaster* raster() const { return renderer_ ? &renderer_->raster() : nullptr; }
+  const render::FrameRaster* raster() const { return session_ ? &session_->renderer().raster() : nullptr; }
   std::vector<std::string> take_debug_messages();
 
 private:
-  Expected<void> take_scene(const std::shared_ptr<const ScenePlan>& scene);
+  Expected<void> take_scene(const FrameRequest& request);
   void keep_evidence(const FrameRequest& request, const render::RenderSettings& settings, double time_s,
                      Picture& picture) const;
   Expected<Drawn> draw(const FrameRequest& request, const render::RenderSettings& settings, double time_s,
                        const AoProgress& progress, const StopFlag& stop);
 
   render::RasterChoice raster_;
-  std::shared_ptr<const ScenePlan> scene_;
-  std::optional<render::Renderer> renderer_;
-  render::FrameInput input_;
-  Size drawn_;                                    ///< pixels of what was drawn last
-  std::map<int, stage::MaterialEdit> materials_;  // that renderer_ has
-  double evaluate_ms_ = 0;
+  std::shared_ptr<const session::StagedScene> scene_;
+  std::optional<session::Session> session_;  ///< of scene_
+  Size drawn_;                               ///< pixels of what was drawn last
 };
 
 }  // namespace tenebra::viewer

@@ -6,11 +6,12 @@
 #include <optional>
 
 #include "options/output_pattern.h"
+#include "options/scene_options.h"
 #include "render/frame_lights.h"
 #include "render/log/frame_columns.h"
 #include "render/renderer.h"
+#include "session/staged_scene.h"
 #include "shared/picture_difference.h"
-#include "shared/scene_plan.h"
 #include "stage/edits/scene_edits.h"
 #include "window/motion/animation_clock.h"
 #include "window/motion/camera_control.h"
@@ -24,7 +25,7 @@ enum class Overlay { none, nodes, classes };
 struct FrameRequest {
   std::uint64_t number = 0;  ///< counts the requests of the session, from 1
   AnimationClock::Wall asked{};
-  std::shared_ptr<const ScenePlan> scene;
+  std::shared_ptr<const session::StagedScene> scene;
   int clip = -1;
   AnimationClock clock;
   int camera = 0;                  ///< of the scene
@@ -67,7 +68,7 @@ struct OverlayImage {
 
 struct Picture {
   std::uint64_t request = 0;  ///< number of the request that it answers
-  std::shared_ptr<const ScenePlan> scene;
+  std::shared_ptr<const session::StagedScene> scene;
   int slot = 0;         ///< that `a` was drawn with
   std::string preview;  ///< what it leaves out of what was asked for; empty: nothing, it is whole
   Size whole;           ///< of the whole picture; `a` has fewer pixels in some previews

@@ -170,10 +170,10 @@ void RenderWorker::load(std::unique_lock<std::mutex>& lock) {
   status_ = {.loading = true, .stage = options.file};
   begun_ = Clock::now();
   lock.unlock();
-  auto planned = within_memory([&] { return plan_scene(options); }, [] {});
+  auto planned = within_memory([&] { return session::stage_scene(options); }, [] {});
   OpenedScene opened{std::move(options), {}};
   if (planned) {
-    opened.scene = std::make_shared<const ScenePlan>(std::move(*planned));
+    opened.scene = std::make_shared<const session::StagedScene>(std::move(*planned));
   } else {
     opened.scene = tl::unexpected(planned.error());
   }

@@ -31,7 +31,7 @@ struct WorkerStatus {
 
 struct OpenedScene {
   SceneOptions options;
-  Expected<std::shared_ptr<const ScenePlan>> scene;
+  Expected<std::shared_ptr<const session::StagedScene>> scene;
 };
 
 /// What was finished since it was last asked for.

@@ -54,14 +54,11 @@ Expected<TradeResult> TradeSearch::search(const FrameRequest& request) {
   const double time_s = request.clock.time_at(request.asked);
   const Size size{request.a.width, request.a.height};
   TradeRequest trade;
-  trade.scene = request.scene.get();
+  trade.scene = request.scene;
   trade.clip = request.clip;
   trade.frames = {{request.clock.frame_of(time_s), time_s}};
   trade.settings = request.a;
-  trade.settings.area_lights.own_size_m = stage::edited_sizes_m(request.edits.lights);
-  trade.settings.area_lights.own_sun_deg = stage::edited_suns_deg(request.edits.lights);
   trade.raster = raster_;
-  trade.lights = stage::lights_of(request.scene->scene, request.edits);
   trade.edits = request.edits;
   trade.view = [&](double t) { return view_of_request(request, t, size); };
   trade.axes = axes_of(request.a, {});

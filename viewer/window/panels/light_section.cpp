@@ -2,7 +2,7 @@
 #include <fmt/core.h>
 #include <cmath>
 
-#include "shared/scene_summary.h"
+#include "session/scene_summary.h"
 #include "window/panels/panels.h"
 
 namespace tenebra::viewer {
@@ -17,7 +17,7 @@ float diameter_of(const Ui& ui, const Light& light, const stage::LightEdit& edit
 /// A directional light with a disc is a sun.
 std::string_view type_name(const Ui& ui, const Light& light, const stage::LightEdit& edit) {
   const bool sun = light.type == LightType::directional && diameter_of(ui, light, edit) > 0;
-  return sun ? "sun" : light_type_name(light.type);
+  return sun ? "sun" : session::light_type_name(light.type);
 }
 
 /// Width and height of a light where the user has not changed them: the scene's, of a point the method's; 0:

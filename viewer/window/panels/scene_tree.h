@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "shared/scene_plan.h"
+#include "session/staged_scene.h"
 
 namespace tenebra::viewer {
 
@@ -15,9 +15,9 @@ struct TreeRow {
 };
 
 struct SceneTree {
-  std::shared_ptr<const ScenePlan> scene;  ///< that the lists below are of
-  std::vector<std::vector<int>> children;  ///< of node i at i + 1; the roots at 0
-  std::vector<char> open;                  ///< one for each node
+  std::shared_ptr<const session::StagedScene> scene;  ///< that the lists below are of
+  std::vector<std::vector<int>> children;             ///< of node i at i + 1; the roots at 0
+  std::vector<char> open;                             ///< one for each node
   std::array<char, 128> filter{};
   int shown_node = -1;  ///< the selected node that was scrolled to
 };

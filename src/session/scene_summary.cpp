@@ -1,8 +1,6 @@
-#include "shared/scene_summary.h"
+#include "session/scene_summary.h"
 
-#include "shared/scene_choice.h"
-
-namespace tenebra::viewer {
+namespace tenebra::session {
 namespace {
 
 void extend(std::optional<Bounds>& bounds, glm::vec3 point) {
@@ -42,7 +40,7 @@ std::size_t count_instances(const Scene& scene) {
 
 SceneSummary summarize_scene(const Scene& scene) {
   const int clip = scene.clips.empty() ? -1 : 0;
-  const double time_s = time_of_frame(scene, clip, 0, 30.0);  // frame 0 is the start at any frame rate
+  const double time_s = scene.clips.empty() ? 0.0 : scene.clips.front().start_s;
   FrameGeometry geometry;
   evaluate_frame(scene, clip, time_s, geometry);
   SceneSummary summary;
@@ -83,4 +81,4 @@ std::string_view light_type_name(LightType type) {
   return "";
 }
 
-}  // namespace tenebra::viewer
+}  // namespace tenebra::session

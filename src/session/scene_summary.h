@@ -8,7 +8,7 @@
 
 #include <tenebra/frame_geometry.h>
 
-namespace tenebra::viewer {
+namespace tenebra::session {
 
 struct Bounds {
   glm::vec3 low{0.0f};
@@ -47,4 +47,4 @@ SceneSummary summarize_scene(const Scene& scene);
 /// "point", "area_rect": the name of a type of light wherever one is shown.
 std::string_view light_type_name(LightType type);
 
-}  // namespace tenebra::viewer
+}  // namespace tenebra::session

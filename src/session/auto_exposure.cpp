@@ -1,11 +1,11 @@
-#include "shared/auto_exposure.h"
+#include "session/auto_exposure.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "render/renderer.h"
+#include "session/session.h"
 
-namespace tenebra::viewer {
+namespace tenebra::session {
 namespace {
 
 constexpr int longer_side_px = 160, intervals = 8;
@@ -49,7 +49,7 @@ int step_for(const std::vector<Colors>& pictures, shade::Tone tone) {
   return dark;
 }
 
-Size metered_size(Size size) {
+settings::Size metered_size(settings::Size size) {
   const int longer = std::max(size.width, size.height);
   const auto scaled = [&](int side) {
     return std::max(1, static_cast<int>(std::int64_t{side} * std::min(longer, longer_side_px) / longer));
@@ -67,9 +67,9 @@ Colors seen_colors(const render::FrameResult& drawn, bool background_too) {
   return colors;
 }
 
-std::vector<double> metered_times(const ScenePlan& plan) {
-  if (plan.clip < 0) return {0.0};
-  const Clip& clip = plan.scene.clips[static_cast<std::size_t>(plan.clip)];
+std::vector<double> metered_times(const StagedScene& staged) {
+  if (staged.clip < 0) return {0.0};
+  const Clip& clip = staged.scene.clips[static_cast<std::size_t>(staged.clip)];
   std::vector<double> times;
   for (int i = 0; i <= (clip.end_s > clip.start_s ? intervals : 0); ++i)
     times.push_back(clip.start_s + (clip.end_s - clip.start_s) * i / intervals);
@@ -78,31 +78,27 @@ std::vector<double> metered_times(const ScenePlan& plan) {
 
 }  // namespace
 
-Expected<AutoExposures> meter_exposures(const ScenePlan& plan, const SceneOptions& options) {
-  auto raster = render::FrameRaster::create({.kind = render::RasterKind::cpu});
-  if (!raster) return tl::unexpected(raster.error());
-  render::Renderer renderer = render::Renderer::create(std::move(*raster), plan.scene);
-  renderer.set_lights(stage::lights_of(plan.scene, options.edits));
-  renderer.set_materials(stage::materials_of(plan.scene, options.edits));
-  if (plan.environment) renderer.set_environment(*plan.environment);
-  const Size size = metered_size(plan.size);
-  const render::RenderSettings settings{.width = size.width, .height = size.height, .linear = true};
-  render::FrameInput input;
+Expected<settings::AutoExposures> meter_exposures(const StagedScene& staged,
+                                                  const settings::SceneSettings& settings) {
+  // It lasts no longer than `staged`.
+  const std::shared_ptr<const StagedScene> unowned(std::shared_ptr<const StagedScene>(), &staged);
+  auto session = Session::open(unowned, settings.edits, {.kind = render::RasterKind::cpu});
+  if (!session) return tl::unexpected(session.error());
+  const settings::Size size = metered_size(staged.size);
+  const Viewpoint viewpoint = viewpoint_of(staged, settings);
   render::FrameResult drawn;
   std::vector<Colors> pictures;
-  for (const double time_s : metered_times(plan)) {
-    evaluate_frame(plan.scene, plan.clip, time_s, input.geometry);
-    stage::apply_node_edits(plan.scene, options.edits, input.geometry);
-    input.lights = stage::placed_lights(plan.scene, options.edits, plan.clip, time_s);
-    input.view = view_of(plan, options, time_s, size);
-    if (auto done = renderer.render_frame(input, settings, drawn); !done) return tl::unexpected(done.error());
-    Colors colors = seen_colors(drawn, plan.environment.has_value());
+  for (const double time_s : metered_times(staged)) {
+    session->place(time_s, rays_of(staged, viewpoint, time_s, size));
+    const render::RenderSettings metered{.width = size.width, .height = size.height, .linear = true};
+    if (auto done = session->draw(metered, drawn); !done) return tl::unexpected(done.error());
+    Colors colors = seen_colors(drawn, staged.environment.has_value());
     if (!colors.empty()) pictures.push_back(std::move(colors));
   }
-  AutoExposures found;
+  settings::AutoExposures found;
   for (const shade::Tone tone : shade::tones)
     found[static_cast<std::size_t>(tone)] = pictures.empty() ? 1.0f : exposure_of(step_for(pictures, tone));
   return found;
 }
 
-}  // namespace tenebra::viewer
+}  // namespace tenebra::session

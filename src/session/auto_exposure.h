@@ -1,0 +1,17 @@
+// --exposure auto: one exposure for all pictures of a scene.
+#pragma once
+
+#include "session/staged_scene.h"
+
+namespace tenebra::session {
+
+/// For each tone the largest of the exposures 2^(k/8), from 2^-12 to 2^6, with which at most one pixel of a
+/// hundred shows a channel above 0.95. Measured in small pictures with hard shadows of all lights, at nine
+/// times spread evenly over the whole clip, by the camera of the settings; the brightest one decides. So it
+/// is a function of the scene with its edits and surroundings, the clip, the camera and the picture's shape
+/// alone: it is the same for every frame, in every part of a render, with every method, on every machine. 1
+/// where nothing is seen.
+Expected<settings::AutoExposures> meter_exposures(const StagedScene& staged,
+                                                  const settings::SceneSettings& settings);
+
+}  // namespace tenebra::session

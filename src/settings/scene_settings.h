@@ -1,0 +1,42 @@
+// What is looked at: the file and how it is read and dressed, the moment, the camera.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/import_scene.h"
+#include "settings/values.h"
+#include "stage/edits/scene_edits.h"
+
+namespace tenebra::settings {
+
+struct SceneSettings {
+  std::string file;  ///< empty: not given
+  formats::ImportOptions import;
+  std::vector<std::string> no_cast;
+  int cutout_limit = 1'000'000;      ///< triangles that cutting out alpha may add
+  bool cast_all = false;             ///< skies cast shadows too
+  std::optional<Transfer> transfer;  ///< none: the format's own
+  std::string environment;           ///< a Radiance picture; empty: none
+  bool floor = true;                 ///< one is added where light and floor are missing
+  bool plain = false;                ///< surfaces without textures and gloss (make_plain)
+
+  bool meter_exposure = false;  ///< a method asks for --exposure auto
+
+  std::optional<double> time_s;
+  double fps = 30.0;
+  std::optional<std::string> clip;
+
+  std::optional<std::string> camera;
+  std::optional<glm::vec3> eye;
+  glm::vec3 look_at{0.0f};
+  glm::vec3 up{0, 1, 0};
+  std::optional<double> fov_deg;
+  std::optional<Size> size;
+
+  stage::SceneEdits edits;
+};
+
+}  // namespace tenebra::settings
