@@ -28,8 +28,8 @@ struct LightVisibility {
   io::ImageF fraction;  ///< 0 to 1; of a light without an area 0 or 1; 0: background
 };
 
-/// Of the opaque surface that each pixel's centre sees; nothing is smoothed. Each is of the frame's width and
-/// height, row 0 at the top: one value per pixel, or three (normal, irradiance, albedo). Empty where not
+/// Data of the opaque surface that each pixel's centre sees; nothing is smoothed. Each is of the frame's
+/// size, row 0 at the top: one value per pixel, or three (normal, irradiance, albedo). Empty where not
 /// wanted.
 struct Aovs {
   io::ImageF depth;                ///< metres along the view axis from the eye's plane; infinite: background

@@ -35,7 +35,7 @@ struct TrianglePlace {
 struct LightExplanation {
   int number = -1;  ///< DrawnLight::number
   std::string name;
-  /// Of lights without an area what the mask says; of those with one, `lit` if any of it is visible.
+  /// What the mask says of a light without an area; of one with an area, `lit` if any of it is visible.
   shadow::LightSight sight = shadow::LightSight::lit;
   /// Without an area: whether the shading normal faces the light. Where it does not, light that comes to the
   /// sample does not shine on it.

@@ -18,7 +18,7 @@ io::Image8 in_levels(const io::ImageF& fractions);
 
 /// Three channels, 0 to 1: what is lit (soft: the visible fraction) times LightMask::tint.
 io::ImageF mask_colour(const LightMask& mask);
-/// The same times 255, rounded; without a tint each channel is the mask.
+/// Those channels times 255, rounded; without a tint each is the mask.
 io::Image8 mask_colour8(const LightMask& mask);
 
 }  // namespace tenebra::render

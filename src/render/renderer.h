@@ -172,8 +172,8 @@ public:
   /// that frame's.
   std::optional<glm::dvec3> visible_point(const FrameInput& input, int x, int y);
 
-  /// Of the last frame: the triangle that each pixel sees, row 0 at the top, and the lights that it drew:
-  /// what explain_pixel asks for.
+  /// What explain_pixel asks for, of the last frame: the triangle that each pixel sees, row 0 at the top, and
+  /// the lights that it drew.
   std::span<const std::uint32_t> triangle_ids() const;
   const std::vector<shade::DrawnLight>& drawn_lights() const;
 

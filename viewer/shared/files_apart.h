@@ -26,7 +26,7 @@ using OutputNames =
 /// bytes for each output, not its name.
 Expected<void> check_files_apart(const std::vector<std::filesystem::path>& inputs,
                                  const OutputNames& outputs);
-/// The same for one.
+/// That check for one output.
 Expected<void> check_files_apart(const std::vector<std::filesystem::path>& inputs, const OutputName& output);
 
 }  // namespace tenebra::viewer

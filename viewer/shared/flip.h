@@ -7,7 +7,7 @@
 
 namespace tenebra::viewer {
 
-/// Of a monitor 0.7 m wide with 3840 pixels across, seen from 0.7 m: what the paper assumes.
+/// What a monitor 0.7 m wide with 3840 pixels across has, seen from 0.7 m, as the paper assumes.
 inline constexpr double pixels_per_degree = 67.0206432765823;
 
 /// The mean over the pixels, 0 (equal) to 1. Both have one size and three channels: linear, of the primaries

@@ -18,7 +18,7 @@ struct PictureDifference {
 PictureDifference compare_pictures(const io::Image8& a, const io::Image8& b, int threshold,
                                    io::Image8* marked = nullptr);
 
-/// The same of linear values, of pictures with three channels.
+/// How pictures of linear values with three channels differ.
 struct ValueDifference {
   std::size_t pixels = 0;
   std::size_t differing = 0;  ///< by more than the threshold in some channel; NaN differs from all but NaN

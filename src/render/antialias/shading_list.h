@@ -24,7 +24,7 @@ struct ShadingList {
   std::vector<float> centres;         ///< by chosen pixel: how many more samples its centre stands for
 
   void clear() { resize(0), centres.clear(); }
-  /// Of all lists but `centres`.
+  /// Sets the size of all lists but `centres`.
   void resize(std::size_t count) {
     ids.resize(count), places.resize(count), from.resize(count), pixels.resize(count), shares.resize(count);
   }
