@@ -69,7 +69,7 @@ void see_crowd(const Scene& crowd, const CrowdView& view, double time_s, int siz
   out.view = look_at(view.eye, view.target, vec3(0, 1, 0), 0.8f, 0.05f, size, size);
   const auto ids = nearest_triangles(out.triangles(), out.view, size, size);
   compute_visible_points(ids, size, size, out.view, out.triangles(), out.points);
-  compute_shading_normals(out.points, out.geometry.normals, out.view, out.triangles(), out.normals);
+  compute_shading_normals(out.points, out.geometry.normals, out.triangles(), out.normals);
 }
 
 }  // namespace tenebra::bench

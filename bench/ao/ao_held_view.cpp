@@ -31,7 +31,7 @@ void see_from(const ViewRays& view, int width, int height, BenchFrame& frame) {
   frame.view = view;
   const auto ids = nearest_triangles(frame.triangles(), view, width, height);
   compute_visible_points(ids, width, height, view, frame.triangles(), frame.points);
-  compute_shading_normals(frame.points, frame.geometry.normals, view, frame.triangles(), frame.normals);
+  compute_shading_normals(frame.points, frame.geometry.normals, frame.triangles(), frame.normals);
 }
 
 void compare(const BenchFrame& now, const BenchFrame& next, std::span<const float> before,

@@ -52,7 +52,7 @@ void evaluate_bench_frame(const Scene& scene, int frame, int width, int height, 
   measure_box(out);
   const std::vector<std::uint32_t> ids = nearest_triangles(out.triangles(), out.view, width, height);
   compute_visible_points(ids, width, height, out.view, out.triangles(), out.points);
-  compute_shading_normals(out.points, out.geometry.normals, out.view, out.triangles(), out.normals);
+  compute_shading_normals(out.points, out.geometry.normals, out.triangles(), out.normals);
 }
 
 void make_opaque(Scene& scene) {

@@ -56,9 +56,7 @@ struct Ours {
   std::array<std::vector<double>, 2> points_ms;  // by PointLayout
 
   double trace(const TriangleView& triangles) {
-    return cost_ms([&] {
-      tracer.trace_shadow_mask(view.frame.points, view.frame.view, triangles, view.light, config, mask);
-    });
+    return cost_ms([&] { tracer.trace_shadow_mask(view.frame.points, triangles, view.light, config, mask); });
   }
   void round(bool dynamic) {
     if (dynamic) {

@@ -25,8 +25,7 @@ Expected<void> measure_hard_variance(HardSession& session) {
   ShadowMask mask;
   const auto trace = [&](const HardView& view, const TriangleView& triangles) {
     CostClock clock;
-    tracer.trace_shadow_mask(view.frame.points, view.frame.view, triangles, view.light,
-                             {.simd = session.simd}, mask);
+    tracer.trace_shadow_mask(view.frame.points, triangles, view.light, {.simd = session.simd}, mask);
     return clock.ms();
   };
   const auto measure = [&](const Scene&, const HardView& view) -> Expected<void> {

@@ -25,8 +25,7 @@ void evaluate_hard_view(const Scene& scene, int number, PictureSize size, HardVi
   const auto [clip, earlier_s] = frame_instant(scene, number > 0 ? number - 1 : 1);
   evaluate_frame(scene, clip, earlier_s, view.before);
   evaluate_bench_frame(scene, number, size.width, size.height, view.frame);
-  points::make_point_tiles(view.frame.points, view.frame.view, view.frame.triangles(),
-                           *view.frame.points.tiles);
+  points::make_point_tiles(view.frame.points, view.frame.triangles(), *view.frame.points.tiles);
   const WorldLight& placed = view.frame.lights.front();
   view.light = render::shadow_light(scene.lights[static_cast<std::size_t>(placed.light)], placed);
 }

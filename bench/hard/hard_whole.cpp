@@ -81,7 +81,7 @@ private:
     tiles_ms_.push_back(tiles);
     return tiles + cost_ms([&] {
              for (std::size_t i = 0; i < task_.lights.size(); ++i)
-               tracer_.trace_shadow_mask(points_, f.view, triangles, task_.lights[i], {.simd = task_.simd},
+               tracer_.trace_shadow_mask(points_, triangles, task_.lights[i], {.simd = task_.simd},
                                          tracer_masks_[i]);
            });
   }

@@ -56,8 +56,7 @@ void SceneHasher::see(const HashFrame& frame, HashPicture picture) {
   compute_visible_points(frame.ids[static_cast<std::size_t>(picture)], width, height, frame_.view,
                          frame_.triangles(), frame_.points,
                          tiled ? PointLayout::rows_and_tiles : PointLayout::rows);
-  compute_shading_normals(frame_.points, frame_.geometry.normals, frame_.view, frame_.triangles(),
-                          frame_.normals);
+  compute_shading_normals(frame_.points, frame_.geometry.normals, frame_.triangles(), frame_.normals);
 }
 
 void SceneHasher::add_points(const char* prefix) {
@@ -81,7 +80,7 @@ void SceneHasher::hash_geometry(const HashFrame& frame) {
 void SceneHasher::hash_masks(const std::string& name, const ShadowLight& light,
                              std::span<const Variant> traced) {
   const auto trace = [&](std::string_view variant, const HardShadowConfig& config) {
-    hard_.trace_shadow_mask(frame_.points, frame_.view, frame_.triangles(), light, config, mask_);
+    hard_.trace_shadow_mask(frame_.points, frame_.triangles(), light, config, mask_);
     add(fmt::format("{}.{}", name, variant), hash_of(mask_));
   };
   for (const Variant variant : traced)
@@ -137,7 +136,7 @@ Expected<void> SceneHasher::hash_soft(const HashFrame& frame) {
   };
   const auto trace = [&](const std::string& name, SoftShadowConfig config) {
     config.simd = setting_.level;
-    soft_.trace(frame_.points, frame_.normals, frame_.view, triangles, *light, config, soft_mask_);
+    soft_.trace(frame_.points, frame_.normals, triangles, *light, config, soft_mask_);
     keep(name);
   };
   for (const SoftSolver solver : {SoftSolver::automatic, SoftSolver::bsp, SoftSolver::clip}) {
@@ -146,7 +145,7 @@ Expected<void> SceneHasher::hash_soft(const HashFrame& frame) {
     trace(name + ".reference", {.solver = solver, .precision = SoftPrecision::reference});
   }
   trace("auto.triangle", {.grouping = SoftGrouping::triangle});
-  light_points_.trace(frame_.points, frame_.normals, frame_.view, triangles, *light, points_on_a_light,
+  light_points_.trace(frame_.points, frame_.normals, triangles, *light, points_on_a_light,
                       {.simd = setting_.level}, soft_mask_);
   keep("points");
   return {};

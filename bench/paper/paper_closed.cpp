@@ -53,7 +53,7 @@ ClosedMeshes measure_closed_meshes(PictureSize size) {
     for (const bool cull : {false, true}) {
       HardShadowConfig config;
       config.variant = Variant::precise_sorted, config.cull_front = cull;
-      tracer.trace_shadow_mask(view.frame.points, view.frame.view, view.frame.triangles(), view.light, config,
+      tracer.trace_shadow_mask(view.frame.points, view.frame.triangles(), view.light, config,
                                masks[cull ? 1 : 0]);
     }
     for (std::size_t i = 0; i < masks[0].size(); ++i) {

@@ -30,7 +30,7 @@ HardShadowConfig paper_config(Variant variant, bool cull_front) {
 /// Triangles that are tested at the root: not those that face the light, if they are culled.
 double root_tests(const HardView& view, bool cull_front) {
   shadow::TriangleSet set;
-  shadow::build_triangle_set(view.frame.triangles(), view.frame.view, shadow::ray_source(view.light),
+  shadow::build_triangle_set(view.frame.triangles(), shadow::ray_source(view.light),
                              paper_config(Variant::precise, cull_front), set);
   return static_cast<double>(set.planes.size());
 }
@@ -40,8 +40,7 @@ VariantCost trace_variant(const HardView& view, const HardShadowConfig& config, 
   std::vector<double> times, sorts, traversals;
   for (int i = 0; i < rounds; ++i) {
     CostClock clock;
-    tracer.trace_shadow_mask(view.frame.points, view.frame.view, view.frame.triangles(), view.light, config,
-                             mask);
+    tracer.trace_shadow_mask(view.frame.points, view.frame.triangles(), view.light, config, mask);
     times.push_back(clock.ms());
     sorts.push_back(tracer.timings().sort_ms);
     traversals.push_back(tracer.timings().traverse_ms);

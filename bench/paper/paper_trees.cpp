@@ -55,8 +55,7 @@ SoftMask trace_light(const SoftView& view, const AreaLight& light, const SoftSha
                      double& bytes) {
   SoftShadowTracer tracer;
   SoftMask mask;
-  tracer.trace(view.frame.points, view.frame.normals, view.frame.view, view.frame.triangles(), light, config,
-               mask);
+  tracer.trace(view.frame.points, view.frame.normals, view.frame.triangles(), light, config, mask);
   bytes = std::max(bytes, static_cast<double>(tracer.stats().peak_tree_bytes));
   return mask;
 }
@@ -71,7 +70,7 @@ struct TreeTask {
 std::vector<TreeTask> tree_tasks(const SoftView& view, const SoftShadowConfig& config) {
   soft::PointGroups groups;
   const TriangleView triangles = view.frame.triangles();
-  soft::group_points(view.frame.points, view.frame.view, triangles, view.light, config.grouping, groups);
+  soft::group_points(view.frame.points, triangles, view.light, config.grouping, groups);
   std::vector<TreeTask> tasks;
   soft::ShaftCuller culler;
   culler.for_each_family(groups, triangles, view.light, config, nullptr,
@@ -244,15 +243,8 @@ TreeLife measure_life(const SoftView& view, std::size_t rows) {
     mask.visible_fraction.resize(view.frame.pixel_count());
     mask.irradiance.resize(view.frame.pixel_count());
     std::vector<std::uint8_t> classes(view.frame.pixel_count());
-    const soft::SoftFrame frame{view.frame.points,
-                                view.frame.normals,
-                                view.frame.view,
-                                triangles,
-                                light,
-                                config,
-                                mask,
-                                classes,
-                                nullptr};
+    const soft::SoftFrame frame{
+        view.frame.points, view.frame.normals, triangles, light, config, mask, classes, nullptr};
     for (std::size_t i = 0; i < std::min(tasks.size(), trees_tried); ++i) {
       TreeLife tried = live(frame, tasks[i], rows);
       const bool better = life.rows.empty() || (life.dropped_at > 0 && tried.dropped_at == 0);

@@ -26,8 +26,7 @@ public:
 
   double time_tenebra(SoftShadowConfig config, SoftMask& out) {
     base::Stopwatch watch;
-    tracer_.trace(view_.frame.points, view_.frame.normals, view_.frame.view, view_.frame.triangles(),
-                  view_.light, config, out);
+    tracer_.trace(view_.frame.points, view_.frame.normals, view_.frame.triangles(), view_.light, config, out);
     return watch.lap_ms();
   }
   double time_sampler(const SoftSampler& sampler) {

@@ -42,8 +42,7 @@ struct ErrorRing {
     SoftShadowConfig config;
     config.error_255 = error;
     base::Stopwatch watch;
-    tracer.trace(view.frame.points, view.frame.normals, view.frame.view, view.frame.triangles(), view.light,
-                 config, mask);
+    tracer.trace(view.frame.points, view.frame.normals, view.frame.triangles(), view.light, config, mask);
     return watch.lap_ms();
   }
   double time_rival(std::size_t rays, int passes) {

@@ -9,7 +9,7 @@ void ShaftedSampler::trace(const SoftView& view, const EmbreeScene& casters,
                            std::span<float> irradiance) {
   const BenchFrame& frame = view.frame;
   const SoftShadowConfig config;
-  soft::group_points(frame.points, frame.view, frame.triangles(), view.light, config.grouping, groups_);
+  soft::group_points(frame.points, frame.triangles(), view.light, config.grouping, groups_);
   wanted_.assign(receivers.size(), 0);
   std::fill(irradiance.begin(), irradiance.end(), 0.0f);
   const auto take_group = [&](const soft::GroupDecision& decision) {

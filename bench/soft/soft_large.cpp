@@ -19,8 +19,7 @@ double time_mask(const SoftView& view, double error, SoftMask& mask, SoftStats& 
   SoftShadowConfig config;
   config.error_255 = error;
   base::Stopwatch watch;
-  tracer.trace(view.frame.points, view.frame.normals, view.frame.view, view.frame.triangles(), view.light,
-               config, mask);
+  tracer.trace(view.frame.points, view.frame.normals, view.frame.triangles(), view.light, config, mask);
   const double ms = watch.lap_ms();
   stats = tracer.stats();
   return ms;

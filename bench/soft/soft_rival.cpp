@@ -113,8 +113,7 @@ void RivalSampler::light_up(std::vector<float>& irradiance) {
   const soft::LightFrame light = soft::light_frame(view_.light);
   const TriangleView triangles = frame.triangles();
   const SoftShadowConfig config;
-  const soft::SoftFrame of{frame.points, frame.normals, frame.view, triangles, light,
-                           config,       mask_,         classes_,   nullptr};
+  const soft::SoftFrame of{frame.points, frame.normals, triangles, light, config, mask_, classes_, nullptr};
   const auto width = static_cast<std::size_t>(frame.points.width);
   parallel::parallel_ranges(rows_, 4, [&](std::size_t first, std::size_t last) {
     soft::GroupSolver solver(SimdLevel::automatic);

@@ -11,7 +11,7 @@ TreeCost tree_cost(const SoftView& view, const VisiblePoints& points, const Soft
   SoftShadowTracer tracer;
   SoftMask mask;
   base::Stopwatch watch;
-  tracer.trace(points, view.frame.normals, view.frame.view, view.frame.triangles(), view.light, config, mask);
+  tracer.trace(points, view.frame.normals, view.frame.triangles(), view.light, config, mask);
   TreeCost cost;
   cost.ms = watch.lap_ms();
   const SoftStats& s = tracer.stats();

@@ -69,7 +69,7 @@ Expected<void> HardTrade::see() {
   // Neither the traversal nor the instructions of the default, which would be no judge of itself.
   const HardShadowConfig truth{.variant = Variant::precise_sorted, .simd = SimdLevel::scalar};
   ShadowTracer tracer;
-  tracer.trace_shadow_mask(points, view_.frame.view, view_.frame.triangles(), view_.light, truth, exact_);
+  tracer.trace_shadow_mask(points, view_.frame.triangles(), view_.light, truth, exact_);
   rays_ = static_cast<double>(tracer.stats().rays);
   return {};
 }
@@ -78,6 +78,7 @@ Expected<void> HardTrade::see() {
 void HardTrade::points_from_depth(VisiblePoints& out) const {
   const VisiblePoints& exact = view_.frame.points;
   out = {exact.width, exact.height, std::move(out.positions), exact.triangles};
+  out.seen_from = exact.seen_from;
   out.positions.resize(exact.positions.size());
   const auto width = static_cast<std::size_t>(exact.width);
   parallel::parallel_ranges(out.positions.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
@@ -112,16 +113,14 @@ void HardTrade::add_tracer(const std::string& family, const std::string& setting
     } else {  // as the renderer asks for them
       see_points(config.variant == Variant::tiles ? PointLayout::rows_and_tiles : PointLayout::rows);
     }
-    tracer->trace_shadow_mask(scratch_points_, view_.frame.view, view_.frame.triangles(), view_.light, config,
-                              mask_);
+    tracer->trace_shadow_mask(scratch_points_, view_.frame.triangles(), view_.light, config, mask_);
     return {};
   };
   Contestant& added = add(family, setting, trace);
   if (config.variant != Variant::tiles) return;
   // An animation's tracer has met the frame before, and follows what moved; the others keep nothing.
   added.prepare = [this, tracer, config] {
-    tracer->trace_shadow_mask(view_.frame.points, view_.frame.view, triangle_view(view_.before), view_.light,
-                              config, mask_);
+    tracer->trace_shadow_mask(view_.frame.points, triangle_view(view_.before), view_.light, config, mask_);
   };
 }
 

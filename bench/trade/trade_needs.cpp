@@ -29,8 +29,7 @@ TracedRun trace(const HardView& view, const HardShadowConfig& config, int rounds
   for (int round = 0; round < rounds; ++round) {
     if (before) before();
     CostClock clock;
-    tracer.trace_shadow_mask(view.frame.points, view.frame.view, view.frame.triangles(), view.light, config,
-                             run.mask);
+    tracer.trace_shadow_mask(view.frame.points, view.frame.triangles(), view.light, config, run.mask);
     ms.push_back(clock.ms());
     const FrameTimings& t = tracer.timings();
     rays.push_back(t.rays_ms + t.sort_ms);
@@ -49,8 +48,7 @@ void need_clusters(TradeSession& session, const HardView& view, int rounds) {
   ShadowMask unused;
   const FrameGeometry all_moved = nudged(view.frame.geometry);
   const auto meet = [&](ShadowTracer& tracer, const FrameGeometry& earlier) {
-    tracer.trace_shadow_mask(view.frame.points, view.frame.view, triangle_view(earlier), view.light, {},
-                             unused);
+    tracer.trace_shadow_mask(view.frame.points, triangle_view(earlier), view.light, {}, unused);
   };
   const TracedRun needed = trace(view, {}, rounds, kept, [&] { meet(kept, view.before); });
   const TracedRun all = trace(view, {}, rounds, shaken, [&] { meet(shaken, all_moved); });
@@ -145,8 +143,7 @@ void need_shafts(TradeSession& session, const SoftView& view, int rounds) {
   }
   SoftShadowTracer tracer;
   SoftMask mask;
-  tracer.trace(view.frame.points, view.frame.normals, view.frame.view, view.frame.triangles(), view.light, {},
-               mask);
+  tracer.trace(view.frame.points, view.frame.normals, view.frame.triangles(), view.light, {}, mask);
   const SoftStats& s = tracer.stats();
   const auto count = static_cast<double>(s.points_lit + s.points_dark + s.points_penumbra);
   // Dark of the shafts must be dark by rays; lit points differ by the rays' noise.

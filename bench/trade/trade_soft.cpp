@@ -78,8 +78,8 @@ Contestant& SoftTrade::add(const std::string& family, const std::string& setting
 void SoftTrade::find_truth() {
   const SoftShadowConfig config{.precision = SoftPrecision::reference};
   CostClock clock;
-  tracer_.trace(view_.frame.points, view_.frame.normals, view_.frame.view, view_.frame.triangles(),
-                view_.light, config, truth_.mask);
+  tracer_.trace(view_.frame.points, view_.frame.normals, view_.frame.triangles(), view_.light, config,
+                truth_.mask);
   truth_ms_ = clock.ms();
   finish_truth(view_.frame, view_.light, truth_);
 }
@@ -87,8 +87,8 @@ void SoftTrade::find_truth() {
 void SoftTrade::add_exact() {
   const auto with = [this](SoftSolver solver) {
     return [this, solver]() -> std::span<const float> {
-      tracer_.trace(view_.frame.points, view_.frame.normals, view_.frame.view, view_.frame.triangles(),
-                    view_.light, {.solver = solver}, mask_);
+      tracer_.trace(view_.frame.points, view_.frame.normals, view_.frame.triangles(), view_.light,
+                    {.solver = solver}, mask_);
       return mask_.irradiance;
     };
   };
@@ -101,8 +101,8 @@ void SoftTrade::add_errors() {
   for (const double asked :
        session_.by_effort<std::vector<double>>({4}, {8, 4, 2, 1, 0.5}, {8, 4, 2, 1, 0.5})) {
     add(error_family, fmt::format("{}", asked), [this, asked]() -> std::span<const float> {
-      tracer_.trace(view_.frame.points, view_.frame.normals, view_.frame.view, view_.frame.triangles(),
-                    view_.light, {.error_255 = asked}, mask_);
+      tracer_.trace(view_.frame.points, view_.frame.normals, view_.frame.triangles(), view_.light,
+                    {.error_255 = asked}, mask_);
       return mask_.irradiance;
     });
   }
@@ -116,8 +116,8 @@ void SoftTrade::add_light_points() {
   for (const int count :
        session_.by_effort<std::vector<int>>({8}, {4, 8, 16, 32, 64}, {4, 8, 16, 32, 64, 128})) {
     add(points_family, fmt::format("{}", count), [this, count]() -> std::span<const float> {
-      light_points_.trace(tiled_, view_.frame.normals, view_.frame.view, view_.frame.triangles(), view_.light,
-                          count, {}, mask_);
+      light_points_.trace(tiled_, view_.frame.normals, view_.frame.triangles(), view_.light, count, {},
+                          mask_);
       return mask_.irradiance;
     });
   }

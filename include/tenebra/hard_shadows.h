@@ -23,9 +23,9 @@ public:
   /// same bits for any variant (without cull_front), number of threads, instruction set and order of the
   /// triangles:
   ///
-  /// A sample P on triangle R (id) is *active* iff R has an area and light and eye lie strictly on the same
-  /// side of R's plane (exact signs; orthographic views: the eye is at infinity against d0), and the spot's
-  /// cone and range hold P (these two in double). An active sample is lit unless some casting triangle T =
+  /// A sample P on triangle R (id) is *active* iff R has an area and the light lies strictly on the sample's
+  /// side of R's plane (visible_side(); exact signs), and the spot's cone and range hold P (these two in
+  /// double). An active sample is lit unless some casting triangle T =
   /// (A, B, C), T not R (with contact rule `none` R too), blocks it:
   ///   n = (B-A) x (C-A); s = sign n.(A-L) for a light at L, s = -sign n.l for one towards l; s = 0 blocks
   ///   nothing; edges closed: s ((A-L) x (B-L)).(P-L) >= 0, or s ((B-A) x l).(P-A) >= 0, for AB, BC and CA;
@@ -34,17 +34,16 @@ public:
   /// All signs are of real numbers: floats and the stored doubles are taken as exact.
   ///
   /// With TriangleView::normals points may be lifted off R (lift_visible_points), and then light may reach
-  /// them from beyond R's plane: a sample on a smooth R with light and eye not strictly on the same side is
+  /// them from beyond R's plane: a sample on a smooth R with the light not strictly on its side is
   /// active all the same iff the light is before the plane at one of R's vertices (A, N), N.(L-A) > 0 or
-  /// N.l > 0, N turned to the eye's side (in double); P lies off R's plane on the eye's side,
+  /// N.l > 0, N turned to the sample's side (in double); P lies off R's plane on its side,
   /// |n.(P-A)| > theta with T = R; and the way from P to the light does not meet R (edges closed). So R
   /// itself blocks lifted points as any triangle would. The mask stays exact; only the point that it is asked
   /// about has moved. It does not say whether the shading normal faces the light; shading decides that.
   ///
   /// Returns false, with `mask` unspecified, if `stop` was requested before the end.
-  bool trace_shadow_mask(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
-                         const ShadowLight& light, const HardShadowConfig& config, ShadowMask& mask,
-                         const StopFlag* stop = nullptr);
+  bool trace_shadow_mask(const VisiblePoints& points, const TriangleView& triangles, const ShadowLight& light,
+                         const HardShadowConfig& config, ShadowMask& mask, const StopFlag* stop = nullptr);
 
   const TraceStats& stats() const;  ///< of the last call
   /// The method that ran in the last call: HardShadowConfig::variant, or what took its place.

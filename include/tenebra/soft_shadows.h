@@ -24,10 +24,10 @@ public:
 
   /// Fills `out` with the visible part of `light` from each point, and the irradiance that it sends onto a
   /// surface with the shading normal `normals` (one per pixel, unit; empty: the triangle's face normal on the
-  /// view's side).
+  /// point's side).
   ///
   /// A point Q of the light (front side only) is visible from sample P on triangle R iff P lies in front of
-  /// the light's plane, Q on the side of R's plane from which the view sees R (strictly), and no casting
+  /// the light's plane, Q on the side of R's plane that P is on (visible_side(); strictly), and no casting
   /// triangle T other than R meets the segment PQ with P more than theta off T's plane and P, Q on different
   /// sides of it (theta: the contact rule of hard_shadows.h).
   /// From a sun every P lies in front, and the segments are half-lines.
@@ -40,9 +40,9 @@ public:
   /// that, as estimated (see there). The bits are the same for any number of threads.
   ///
   /// Returns false, with `out` unspecified, if `stop` was requested before the end, or for refusal().
-  bool trace(const VisiblePoints& points, std::span<const glm::vec3> normals, const ViewRays& view,
-             const TriangleView& triangles, const AreaLight& light, const SoftShadowConfig& config,
-             SoftMask& out, const StopFlag* stop = nullptr);
+  bool trace(const VisiblePoints& points, std::span<const glm::vec3> normals, const TriangleView& triangles,
+             const AreaLight& light, const SoftShadowConfig& config, SoftMask& out,
+             const StopFlag* stop = nullptr);
 
   /// Why the last call returned false although no stop was requested, in a sentence; empty if it did not.
   /// Points that are solved together needed more than SoftShadowConfig::memory_bytes.

@@ -90,11 +90,11 @@ public:
   /// as a ray beside it: through a pane one, in and out of a closed body two. All signs are of real numbers;
   /// transmittances are float, at the crossing found in double. Returns false, with `out` unspecified, if
   /// `stop` was requested before the end.
-  bool trace(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
-             const SeeThroughSurfaces& surfaces, const ShadowLight& light, const ShadowMask& mask,
-             const TintConfig& config, TintMask& out, const StopFlag* stop = nullptr);
+  bool trace(const VisiblePoints& points, const TriangleView& triangles, const SeeThroughSurfaces& surfaces,
+             const ShadowLight& light, const ShadowMask& mask, const TintConfig& config, TintMask& out,
+             const StopFlag* stop = nullptr);
 
-  /// An area light. For each pixel whose `mask` (SoftShadowTracer's, of the same light, view and normals) has
+  /// An area light. For each pixel whose `mask` (SoftShadowTracer's, of the same light and normals) has
   /// irradiance: the share of that irradiance that passes, by channel: the product of the transmittances
   /// integrated over the light's visible part with the same weight. See-through triangles cast by the rule of
   /// SoftShadowTracer::trace.
@@ -106,9 +106,9 @@ public:
   ///
   /// The bits are the same for any number of threads. Returns false, with `out` unspecified, if `stop` was
   /// requested before the end.
-  bool trace(const VisiblePoints& points, std::span<const glm::vec3> normals, const ViewRays& view,
-             const TriangleView& triangles, const SeeThroughSurfaces& surfaces, const AreaLight& light,
-             const SoftMask& mask, const TintConfig& config, TintMask& out, const StopFlag* stop = nullptr);
+  bool trace(const VisiblePoints& points, std::span<const glm::vec3> normals, const TriangleView& triangles,
+             const SeeThroughSurfaces& surfaces, const AreaLight& light, const SoftMask& mask,
+             const TintConfig& config, TintMask& out, const StopFlag* stop = nullptr);
 
   const TintStats& stats() const;  ///< of the last call
 

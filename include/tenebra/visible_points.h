@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,10 +14,15 @@ namespace tenebra {
 
 namespace points {
 struct PointTiles;
-}
+struct ViewOfSamples;
+}  // namespace points
 
 /// Id of a pixel where no triangle is seen.
 inline constexpr std::uint32_t no_triangle = 0xffffffffu;
+/// Id of a point that lies on no triangle: it counts as rounded to float where a triangle may touch it. Hard
+/// shadows see all around it. For soft shadows its side is 0, and it sees all around, or 1, and it sees the
+/// half of space that its shading normal points into.
+inline constexpr std::uint32_t free_point = 0xfffffffeu;
 
 /// Triangles of one instant that the caller owns, receivers and occluders alike. Vertices are floats,
 /// taken as exact; a triangle's id is its index.
@@ -56,15 +62,32 @@ private:
   std::unique_ptr<points::PointTiles> tiles_;
 };
 
+/// The view that samples were seen from, if from one: their sides, and positions that are not stored, are
+/// worked out from it. Only what makes samples looks inside; what is asked about samples does not depend on
+/// an eye but for these.
+class SeenFrom {
+public:
+  SeenFrom() = default;  ///< from none
+  SeenFrom(const ViewRays& view)
+      : view_(view) {}  // NOLINT(google-explicit-constructor): samples are of a view
+
+private:
+  friend struct points::ViewOfSamples;
+  std::optional<ViewRays> view_;
+};
+
 /// For each pixel, row 0 at the top, a point and the triangle that it lies on. The points are taken as exact.
 struct VisiblePoints {
   int width = 0;                         ///< pixels
   int height = 0;                        ///< pixels
   std::vector<glm::dvec3> positions;     ///< width * height; meaningless where the id is no_triangle.
                                          ///< Empty: visible_position() says where they are
-  std::vector<std::uint32_t> triangles;  ///< width * height ids, or no_triangle
+  std::vector<std::uint32_t> triangles;  ///< width * height ids, no_triangle or free_point
+  /// The side of its triangle that each point is on: 1 where the triangle is counter-clockwise, -1 behind, 0
+  /// on neither, so that no light reaches it. Empty: visible_side() says which.
+  std::vector<std::int8_t> sides;
   PointTileStore tiles;  ///< empty, or the same points again: clear them if you change the points
-  ViewRays view;         ///< where `positions` is empty: the rays of the pixels
+  SeenFrom seen_from;    ///< the rays of the pixels, where `positions` is empty; the eye, where `sides` is
 };
 
 /// The forms in which points are stored. Hard shadows read tiles, and make their own if there are none; the
@@ -81,8 +104,12 @@ void compute_visible_points(std::span<const std::uint32_t> ids, int width, int h
                             PointLayout layout = PointLayout::rows);
 
 /// The point of a pixel whose id is not no_triangle: from `positions` or, where that is empty, worked out
-/// from id, pixel and `points.view`. The same bits both ways.
+/// from id, pixel and `points.seen_from`. The same bits both ways.
 glm::dvec3 visible_position(const VisiblePoints& points, const TriangleView& triangles, std::size_t pixel);
+/// The side of the triangle that the pixel's point is on, whose id is not no_triangle: from `sides` or, where
+/// that is empty, from `points.seen_from`: the side on which the eye lies, exactly (orthographic views: the
+/// eye is at infinity against d0).
+int visible_side(const VisiblePoints& points, const TriangleView& triangles, std::size_t pixel);
 
 /// Lifts points of triangles that TriangleView::normals shade smoothly (their three normals differ) to the
 /// surface that these describe, in double; all others stay as they are. `points`: with positions, on their
@@ -92,14 +119,13 @@ glm::dvec3 visible_position(const VisiblePoints& points, const TriangleView& tri
 /// is lifted where the surface is concave, where normals are equal or zero or contradict the triangle (not
 /// all on one side of it), or by less than the effect of rounding. Give the same normals to whatever traces
 /// the points. Compute shading normals from the points before lifting.
-void lift_visible_points(const ViewRays& view, const TriangleView& triangles, VisiblePoints& points);
+void lift_visible_points(const TriangleView& triangles, VisiblePoints& points);
 
 /// Fills `out` with unit shading normals, one per pixel: `normals` (one for each vertex of `triangles`;
-/// empty: face normals) interpolated in double and turned to the side from which `view` sees the triangle.
+/// empty: face normals) interpolated in double and turned to the side that the point is on.
 /// Where the interpolated normal vanishes it is the face normal; where no triangle is seen, or one without an
 /// area, it is zero. The bits do not depend on the number of threads or the instruction set.
 void compute_shading_normals(const VisiblePoints& points, std::span<const glm::vec3> normals,
-                             const ViewRays& view, const TriangleView& triangles,
-                             std::vector<glm::vec3>& out);
+                             const TriangleView& triangles, std::vector<glm::vec3>& out);
 
 }  // namespace tenebra

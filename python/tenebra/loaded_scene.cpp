@@ -83,7 +83,7 @@ Expected<LoadedScene::Picture> LoadedScene::render(int frame, std::optional<doub
   if (wanted.points) {
     const TriangleView triangles = triangle_view(input.geometry);
     compute_visible_points(ids, size.width, size.height, input.view, triangles, picture.points);
-    compute_shading_normals(picture.points, input.geometry.normals, input.view, triangles, picture.normals);
+    compute_shading_normals(picture.points, input.geometry.normals, triangles, picture.normals);
   }
   picture.view = input.view;
   picture.aovs = settings->aovs;

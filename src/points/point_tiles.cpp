@@ -11,6 +11,7 @@
 #include "points/contact_rule.h"
 #include "points/point_tile_kernels.h"
 #include "points/receiver.h"
+#include "points/sample_sides.h"
 #include "points/seen_plane.h"
 #include "points/smooth_surface.h"
 #include "points/triangle_corners.h"
@@ -22,7 +23,7 @@ namespace {
 
 using glm::dvec3;
 
-constexpr std::uint16_t no_receiver = 0xfffeu;  // none, or one edge-on to the eye or without area
+constexpr std::uint16_t no_receiver = 0xfffeu;  // none, or one without area or on neither side
 
 constexpr std::uint32_t no_plane = 0xffffffffu;
 constexpr std::size_t most_planes = 3;
@@ -49,8 +50,9 @@ public:
   PatchMaker(const VisiblePoints& points, const TriangleView& triangles, PointTiles& out, PointPatch& patch)
       : points_(points),
         from_view_(points.positions.empty()),
-        rays_(points.view),
-        rows_(points.view, points.width, points.height),
+        view_(ViewOfSamples::or_any(points.seen_from)),
+        rays_(view_),
+        rows_(view_, points.width, points.height),
         triangles_(triangles),
         out_(out),
         patch_(patch),
@@ -72,11 +74,12 @@ public:
 private:
   struct Known {
     std::uint32_t id = no_triangle;
+    std::int8_t side = 0;
     std::uint16_t number = 0;
   };
   /// What the points of a tile lie on.
   struct Seen {
-    std::uint32_t lanes = 0;  ///< that have a point on a triangle that faces the eye
+    std::uint32_t lanes = 0;  ///< that have a point on one side of its triangle
     std::size_t count = 0;    ///< of parts
     ReceiverLanes parts[tile_points];
     std::uint32_t ids[tile_points];  ///< where there are several parts
@@ -89,14 +92,17 @@ private:
     }
   };
 
-  std::uint16_t receiver_of(std::uint32_t id);
-  std::uint16_t add_receiver(std::uint32_t id);
+  std::uint16_t receiver_of(std::uint32_t id, int side = 0);
+  std::uint16_t add_receiver(std::uint32_t id, int side);
+  std::uint16_t add_free_receiver();
   int side_of(const Receiver& r, const Corners& c, double squares) const;
+  bool is_point(std::uint32_t id) const { return id < triangles_.triangles.size() || id == free_point; }
   const std::uint32_t* ids_at(std::uint32_t x, std::uint32_t y) const {
     return &points_.triangles[static_cast<std::size_t>(y) * width_ + x];
   }
   bool one_receiver(std::uint32_t x, std::uint32_t y) const;
   void find_receivers(std::uint32_t x, std::uint32_t y, Seen& seen);
+  void add_sides(std::uint32_t id, std::uint32_t lanes, std::uint32_t x, std::uint32_t y, Seen& seen);
   void see(const Seen& seen, glm::uvec2 at, TilePoints& points) const;
   bool lifts(const Seen& seen) const;
   const SeenPlane& plane_of(std::uint16_t receiver);
@@ -104,10 +110,12 @@ private:
                     PointSquare& square, PlaneError& error);
   void lift(const Seen& seen, TilePoints& points) const;
   void note_owners(const Seen& seen, int place, PointSquare& square) const;
+  void note_free(const Seen& seen, const TilePoints& points, PointSquare& square) const;
   void note_ids(const Seen& seen, PointTile& tile) const;
 
   const VisiblePoints& points_;
   const bool from_view_;  ///< else from positions
+  const ViewRays view_;   ///< tells sides, too, where they are not stored
   const PixelRays rays_;
   const RayRows rows_;
   const TriangleView& triangles_;
@@ -124,25 +132,24 @@ private:
   std::array<Known, 4096> known_{};  // of the triangles that pixels nearby lie on
 };
 
-/// On which side of the triangle the eye is, as eye_side(). In double n.v of float differences carries nine
-/// roundings in each of its three products and two in their sums: it is off by less than 2^-46 |e1||e2||v|,
-/// whose squares no floats take out of the range of doubles.
+/// On which side of the triangle the view's eye is, as eye_side(). In double n.v of float differences carries
+/// nine roundings in each of its three products and two in their sums: it is off by less than 2^-46
+/// |e1||e2||v|, whose squares no floats take out of the range of doubles.
 int PatchMaker::side_of(const Receiver& r, const Corners& c, double squares) const {
-  const ViewRays& view = out_.view;
-  const dvec3 to_eye = view.orthographic ? -dvec3(view.d0) : dvec3(view.eye) - r.a;
+  const dvec3 to_eye = view_.orthographic ? -dvec3(view_.d0) : dvec3(view_.eye) - r.a;
   const double value = glm::dot(r.normal, to_eye);
   if (value * value > 0x1p-92 * squares * glm::dot(to_eye, to_eye)) return value > 0 ? 1 : -1;
-  return eye_side(c.v, view);
+  return eye_side(c.v, view_);
 }
 
 // n / |n| in double is off by less than 2^-48 |e1||e2| / |n|; rounding it, the difference p - a and the
 // products add less than 16 u of |p - a|. Rounding up: a float is off by u, as its product is, or by less
 // than the least float.
-std::uint16_t PatchMaker::add_receiver(std::uint32_t id) {
+std::uint16_t PatchMaker::add_receiver(std::uint32_t id, int stored_side) {
   const Corners c = corners_of(triangles_, id);
   const Receiver r = points::receiver_of(triangles_, id);
   const double squares = glm::dot(r.e1, r.e1) * glm::dot(r.e2, r.e2);
-  const int side = side_of(r, c, squares);
+  const int side = points_.sides.empty() ? side_of(r, c, squares) : stored_side;
   if (side == 0) return no_receiver;
   const std::uint32_t number = patch_.receiver_count++;
   if (number % 16 == 0) patch_.receivers.emplace_back();
@@ -159,18 +166,46 @@ std::uint16_t PatchMaker::add_receiver(std::uint32_t id) {
   block.id[i] = id;
   block.side[i] = static_cast<std::int8_t>(side);
   if (from_view_) receivers_.push_back(r), plane_numbers_.push_back(no_plane);
-  if (from_view_ && !triangles_.normals.empty())
-    smooth_.push_back(smooth_surface(triangles_, id, points_.view));
+  if (from_view_ && !triangles_.normals.empty()) smooth_.push_back(smooth_surface(triangles_, id, side));
   return static_cast<std::uint16_t>(number);
 }
 
-std::uint16_t PatchMaker::receiver_of(std::uint32_t id) {
-  if (id >= triangles_.triangles.size()) return no_receiver;
-  if (last_.id == id) return last_.number;
+/// All free points have one receiver: it has no plane, and note_free() finds their tolerances.
+std::uint16_t PatchMaker::add_free_receiver() {
+  const std::uint32_t number = patch_.receiver_count++, i = number % 16;
+  if (i == 0) patch_.receivers.emplace_back();
+  ReceiverBlock& block = patch_.receivers.back();
+  block.slack[i] = 2;
+  block.id[i] = free_point;
+  block.side[i] = 1;
+  if (from_view_) receivers_.emplace_back(), plane_numbers_.push_back(no_plane);
+  if (from_view_ && !triangles_.normals.empty()) smooth_.emplace_back();
+  return static_cast<std::uint16_t>(number);
+}
+
+/// `side`: where sides are stored.
+std::uint16_t PatchMaker::receiver_of(std::uint32_t id, int side) {
+  if (!is_point(id)) return no_receiver;
+  if (last_.id == id && last_.side == side) return last_.number;
   Known& known = known_[id % known_.size()];
-  if (known.id != id) known = {id, add_receiver(id)};
+  if (known.id != id || known.side != side)
+    known = {id, static_cast<std::int8_t>(side),
+             id == free_point ? add_free_receiver() : add_receiver(id, side)};
   last_ = known;
   return known.number;
+}
+
+/// Adds lanes on one triangle of the tile at (x, y) by the sides that are stored.
+void PatchMaker::add_sides(std::uint32_t id, std::uint32_t lanes, std::uint32_t x, std::uint32_t y,
+                           Seen& seen) {
+  std::uint32_t of[2] = {0, 0};  // in front, behind
+  for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
+    const int side = points_.sides[std::size_t{y + lane / tile_side} * width_ + x + lane % tile_side];
+    if (side != 0) of[side < 0 ? 1 : 0] |= 1u << lane;
+  }
+  if (of[0] != 0) seen.add(receiver_of(id, 1), of[0]);
+  if (of[1] != 0) seen.add(receiver_of(id, -1), of[1]);
 }
 
 void PatchMaker::prefetch_corners(std::uint32_t x, std::uint32_t y) {
@@ -207,7 +242,8 @@ void PatchMaker::find_receivers(std::uint32_t x, std::uint32_t y, Seen& seen) {
   seen.lanes = 0, seen.count = 0;
   if (x >= width_ || y >= height_) return;
   const bool whole = x + tile_side <= width_ && y + tile_side <= height_;
-  if (whole && one_receiver(x, y)) return seen.add(receiver_of(*ids_at(x, y)), 0xffffu);
+  const bool sides = !points_.sides.empty();
+  if (whole && !sides && one_receiver(x, y)) return seen.add(receiver_of(*ids_at(x, y)), 0xffffu);
   if (!whole) std::fill(std::begin(seen.ids), std::end(seen.ids), no_triangle);
   const std::uint32_t columns = std::min<std::uint32_t>(tile_side, width_ - x),
                       rows = std::min<std::uint32_t>(tile_side, height_ - y);
@@ -215,7 +251,15 @@ void PatchMaker::find_receivers(std::uint32_t x, std::uint32_t y, Seen& seen) {
     std::copy_n(ids_at(x, y + row), columns, &seen.ids[tile_side * row]);
   std::uint16_t same[tile_points];
   const int different = kernels_.part_lanes(seen.ids, same);
-  for (int i = 0; i < different; ++i) seen.add(receiver_of(seen.ids[std::countr_zero(same[i])]), same[i]);
+  for (int i = 0; i < different; ++i) {
+    const std::uint32_t id = seen.ids[std::countr_zero(same[i])];
+    if (!is_point(id)) continue;
+    if (sides && id != free_point) {
+      add_sides(id, same[i], x, y, seen);
+    } else {
+      seen.add(receiver_of(id), same[i]);
+    }
+  }
 }
 
 /// Notes what the points of the tile (it has some) lie on.
@@ -226,6 +270,17 @@ void PatchMaker::note_owners(const Seen& seen, int place, PointSquare& square) c
   square.receiver[place] = one ? first : several_receivers;
   for (const ReceiverLanes& part : seen.receivers())
     square.tau = std::max(square.tau, patch_.receivers[part.receiver / 16].tau[part.receiver % 16]);
+}
+
+/// Free points are stored, so `points` has them.
+void PatchMaker::note_free(const Seen& seen, const TilePoints& points, PointSquare& square) const {
+  for (const ReceiverLanes& part : seen.receivers()) {
+    if (patch_.receivers[part.receiver / 16].id[part.receiver % 16] != free_point) continue;
+    for (std::uint32_t left = part.lanes; left != 0; left &= left - 1) {
+      const double tau = own_tolerance(triangles_, free_point, points.at(std::countr_zero(left)));
+      square.tau = std::max(square.tau, static_cast<float>(tau) * (1 + 0x1p-22f) + 0x1p-149f);
+    }
+  }
 }
 
 void PatchMaker::note_ids(const Seen& seen, PointTile& tile) const {
@@ -326,6 +381,7 @@ void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t firs
     square.filled |= 1u << t;
     square.lanes[t] = static_cast<std::uint16_t>(seen.lanes);
     note_owners(seen, place, square);
+    if (!from_view_) note_free(seen, points, square);
     if (square.receiver[t] != several_receivers) continue;
     note_ids(seen, tile);
     patch_.mixed.insert(patch_.mixed.end(), seen.parts, seen.parts + seen.count);
@@ -343,12 +399,11 @@ void PatchMaker::add_square(std::uint32_t x, std::uint32_t y, std::uint32_t firs
 
 }  // namespace
 
-void begin_point_tiles(int width, int height, const ViewRays& view, PointTiles& out) {
+void begin_point_tiles(int width, int height, PointTiles& out) {
   const SquareGrid grid(width, height);
   out.bases.resize(static_cast<std::size_t>(grid.columns) * grid.rows);
   out.tiles.resize(out.bases.size() * 16);
   out.patches.resize(static_cast<std::size_t>(grid.row_patches) * grid.rows);
-  out.view = view;
 }
 
 void make_point_patch(const VisiblePoints& points, const TriangleView& triangles, std::uint32_t patch,
@@ -363,9 +418,8 @@ void make_point_patch(const VisiblePoints& points, const TriangleView& triangles
   }
 }
 
-void make_point_tiles(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
-                      PointTiles& out) {
-  begin_point_tiles(points.width, points.height, view, out);
+void make_point_tiles(const VisiblePoints& points, const TriangleView& triangles, PointTiles& out) {
+  begin_point_tiles(points.width, points.height, out);
   parallel::parallel_tasks(static_cast<int>(out.patches.size()), [&](int patch) {
     make_point_patch(points, triangles, static_cast<std::uint32_t>(patch), out);
   });

@@ -32,7 +32,7 @@ struct PointBase {
 };
 
 /// Sixteen pixels, four rows of four. The point of lane i is base + q_i, q as close as PointBase::grain says.
-/// Lanes that see nothing, or a triangle edge-on, hold the q of another.
+/// Lanes without a point, or on neither side of its triangle, hold the q of another.
 struct alignas(64) PointTile {
   float qx[tile_points], qy[tile_points], qz[tile_points];
   std::uint32_t id[tile_points];  ///< where the square's receiver is several: of the triangle that the point
@@ -60,15 +60,14 @@ struct alignas(64) PointSquare {
   float tau;  ///< largest rounding tolerance of the points' triangles, rounded up
 };
 
-/// Sixteen triangles that points lie on and that face the eye: points on the side that n points to are before
-/// them.
+/// Sixteen triangles that points lie on, each from the side that its points are on: to there n points.
 struct alignas(64) ReceiverBlock {
-  float nx[16], ny[16], nz[16];  ///< unit normal to the eye's side, rounded
+  float nx[16], ny[16], nz[16];  ///< unit normal to that side, rounded
   float ax[16], ay[16], az[16];  ///< a corner, exact
   float slack[16];  ///< n.(p - a) has the sign of the exact value where |n.(p - a)| > slack |p - a|
   float tau[16];    ///< rounding tolerance, rounded up
   std::uint32_t id[16];
-  std::int8_t side[16];  ///< of the eye
+  std::int8_t side[16];  ///< 1 or -1
 };
 
 /// Squares in a row, at most patch_squares.
@@ -85,7 +84,6 @@ struct PointTiles {
       tiles;  ///< sixteen to a square, squares row by row; q of those without points as it was
   std::vector<PointBase> bases;  ///< one per square
   std::vector<PointPatch> patches;
-  ViewRays view;  ///< whose eye the triangles face
 
   bool empty() const { return patches.empty(); }
 };
@@ -118,14 +116,13 @@ private:
 };
 
 /// Makes room for the tiles of a picture; patches are then made one by one, in any order.
-void begin_point_tiles(int width, int height, const ViewRays& view, PointTiles& out);
+void begin_point_tiles(int width, int height, PointTiles& out);
 /// Makes patch `patch` (row of squares * row_patches + part of the row) of points whose ids are known, from
 /// their positions or, where these are missing, from their view. Both ways give the same but for q, which
 /// positions give rounded and views a little less close, and what bounds q.
 void make_point_patch(const VisiblePoints& points, const TriangleView& triangles, std::uint32_t patch,
                       PointTiles& out);
-/// Makes the tiles of a whole picture. `view`: the eye that saw the points.
-void make_point_tiles(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
-                      PointTiles& out);
+/// Makes the tiles of a whole picture.
+void make_point_tiles(const VisiblePoints& points, const TriangleView& triangles, PointTiles& out);
 
 }  // namespace tenebra::points

@@ -3,6 +3,7 @@
 
 #include <tenebra/visible_points.h>
 #include "points/receiver.h"
+#include "points/sample_sides.h"
 #include "points/smooth_surface.h"
 
 namespace tenebra::points {
@@ -15,7 +16,10 @@ const VisiblePoints& with_positions(const VisiblePoints& points, const TriangleV
 class PositionFinder {
 public:
   PositionFinder(const VisiblePoints& points, const TriangleView& triangles)
-      : points_(points), triangles_(triangles), rays_(points.view) {}
+      : points_(points),
+        triangles_(triangles),
+        rays_(ViewOfSamples::or_any(points.seen_from)),
+        sides_(points, triangles) {}
   /// As visible_position().
   glm::dvec3 at(std::size_t pixel);
 
@@ -23,6 +27,7 @@ private:
   const VisiblePoints& points_;
   const TriangleView& triangles_;
   const PixelRays rays_;
+  SideFinder sides_;
   Receiver receiver_;
   SmoothSurface smooth_;
 };

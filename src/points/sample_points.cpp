@@ -14,7 +14,8 @@ void compute_sample_points(std::span<const std::uint32_t> ids, std::span<const g
   const SampleGrid grid(count);
   out.width = grid.width();
   out.height = grid.height();
-  out.view = view;
+  out.seen_from = view;
+  out.sides.clear();
   out.tiles.clear();
   out.triangles.assign(grid.pixels(), no_triangle);
   out.positions.resize(grid.pixels());
@@ -39,13 +40,16 @@ void take_points(const VisiblePoints& from, std::span<const std::uint32_t> pixel
   const SampleGrid grid(pixels.size());
   out.width = grid.width();
   out.height = grid.height();
-  out.view = from.view;
+  out.seen_from = from.seen_from;
+  out.sides.clear();
   out.tiles.clear();
   out.triangles.assign(grid.pixels(), no_triangle);
   out.positions.resize(grid.pixels());
+  if (!from.sides.empty()) out.sides.resize(grid.pixels());
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     out.triangles[grid.pixel(i)] = from.triangles[pixels[i]];
     out.positions[grid.pixel(i)] = from.positions[pixels[i]];
+    if (!from.sides.empty()) out.sides[grid.pixel(i)] = from.sides[pixels[i]];
   }
 }
 

@@ -38,14 +38,29 @@ vec3 unit_or_zero(const dvec3& v) {
   return length > 0 && std::isfinite(length) ? vec3(v / length) : vec3(0.0f);
 }
 
+/// The side of the triangle that a point is on, by its face normal: in double, as seen from the point itself.
+class FaceSide {
+public:
+  explicit FaceSide(const VisiblePoints& points)
+      : points_(points), view_(points::ViewOfSamples::of(points.seen_from)) {}
+  bool behind(const dvec3& normal, const dvec3& p, std::size_t i) const {
+    if (!points_.sides.empty() || view_ == nullptr) return !points_.sides.empty() && points_.sides[i] < 0;
+    return glm::dot(normal, view_->orthographic ? -dvec3(view_->d0) : dvec3(view_->eye) - p) < 0;
+  }
+
+private:
+  const VisiblePoints& points_;
+  const ViewRays* view_;
+};
+
 }  // namespace
 
 void compute_shading_normals(const VisiblePoints& points, std::span<const glm::vec3> normals,
-                             const ViewRays& view, const TriangleView& triangles,
-                             std::vector<glm::vec3>& out) {
+                             const TriangleView& triangles, std::vector<glm::vec3>& out) {
   const parallel::FloatEnvironment ieee;
   VisiblePoints made;
   const std::vector<dvec3>& positions = points::with_positions(points, triangles, made).positions;
+  const FaceSide side(points);
   out.resize(positions.size());
   parallel::parallel_ranges(out.size(), 4096, [&](std::size_t first, std::size_t last) {
     std::uint32_t known = no_triangle;
@@ -58,8 +73,7 @@ void compute_shading_normals(const VisiblePoints& points, std::span<const glm::v
       known = id;
       if (w.flat) continue;
       const dvec3 p = positions[i];
-      const dvec3 to_eye = view.orthographic ? -dvec3(view.d0) : dvec3(view.eye) - p;
-      const dvec3 face = glm::dot(w.normal, to_eye) < 0 ? -w.normal : w.normal;
+      const dvec3 face = side.behind(w.normal, p, i) ? -w.normal : w.normal;
       dvec3 n = face;
       if (!normals.empty()) {
         const glm::uvec3 t = triangles.triangles[id];

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "points/contact_rule.h"
-#include "points/triangle_corners.h"
 
 namespace tenebra::points {
 namespace {
@@ -73,11 +72,10 @@ bool lifts(const SmoothTriangle& t) {
 
 }  // namespace
 
-SmoothSurface smooth_surface(const TriangleView& triangles, std::uint32_t id, const ViewRays& view) {
+SmoothSurface smooth_surface(const TriangleView& triangles, std::uint32_t id, int side) {
   SmoothSurface out;
   if (triangles.normals.empty()) return out;
   SmoothTriangle t;
-  const int side = eye_side(corners_of(triangles, id).v, view);
   if (!find(triangles, id, side, t) || !lifts(t)) return out;
   out.lifts = true;
   out.a = t.v[0];

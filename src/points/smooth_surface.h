@@ -18,14 +18,14 @@ namespace tenebra::points {
 struct SmoothSurface {
   bool lifts = false;                   ///< some point, by more than rounding amounts to
   glm::dvec3 a{0.0}, du{0.0}, dv{0.0};  ///< weights of p: u = du.(p - a), v = dv.(p - a), 1 - u - v
-  glm::dvec3 normal[3];                 ///< of the vertices, on the eye's side of the triangle
+  glm::dvec3 normal[3];                 ///< of the vertices, on the samples' side of the triangle
   double fall[3][2];  ///< [i][k]: how far vertex i + 1 + k lies below the plane at vertex i; < 0: above it
 };
 
-/// Does not lift: normals that are all equal, none at all, or not all on one side of the triangle (they
-/// contradict it, or each other); triangles without an area or edge-on to the eye; planes at the vertices
-/// that no vertex is below, as on concave surfaces.
-SmoothSurface smooth_surface(const TriangleView& triangles, std::uint32_t id, const ViewRays& view);
+/// As seen from `side` of the triangle (visible_side()). Does not lift: normals that are all equal, none at
+/// all, or not all on one side of the triangle (they contradict it, or each other); triangles without an area
+/// or with side 0; planes at the vertices that no vertex is below, as on concave surfaces.
+SmoothSurface smooth_surface(const TriangleView& triangles, std::uint32_t id, int side);
 
 /// Where a point of the triangle (weights below zero count as zero) is on the surface.
 inline glm::dvec3 lifted(const SmoothSurface& s, const glm::dvec3& p) {
@@ -43,7 +43,7 @@ struct SmoothLight {
   bool directional = false;
   glm::vec3 at{0.0f};
 };
-/// Whether the triangle, seen from its side `side` (of points::eye_side, not 0), lifts points and the light
+/// Whether the triangle, seen from its side `side` (not 0), lifts points and the light
 /// is before the plane at one of its vertices. In double.
 bool is_before(const TriangleView& triangles, std::uint32_t id, int side, const SmoothLight& light);
 

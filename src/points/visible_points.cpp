@@ -2,6 +2,7 @@
 #include <tenebra/visible_points.h>
 
 #include <algorithm>
+#include <cassert>
 
 #include "parallel/parallel.h"
 #include "points/point_tile_kernels.h"
@@ -34,29 +35,34 @@ void compute_run(const points::Receiver& r, const points::PixelRow& row, std::si
 /// Smooth surfaces of the triangles that rows nearby see.
 class SmoothCache {
 public:
-  const points::SmoothSurface& find(const ViewRays& view, const TriangleView& triangles, std::uint32_t id) {
+  /// That of a sample on triangle `id`.
+  const points::SmoothSurface& find(const TriangleView& triangles, std::uint32_t id,
+                                    points::SideFinder& sides, std::size_t sample) {
     Known& known = known_[id % known_.size()];
-    if (known.id != id) known = {id, points::smooth_surface(triangles, id, view)};
+    if (known.id == id && (!sides.differ() || known.side == sides.at(sample))) return known.surface;
+    const int side = sides.at(sample);
+    known = {id, side, points::smooth_surface(triangles, id, side)};
     return known.surface;
   }
 
 private:
   struct Known {
     std::uint32_t id = no_triangle;
+    int side = 0;
     points::SmoothSurface surface;
   };
   std::vector<Known> known_{512};
 };
 
-void lift_points(std::span<const std::uint32_t> ids, const ViewRays& view, const TriangleView& triangles,
-                 SmoothCache& smooth, dvec3* positions) {
-  for (std::size_t i = 0, end = 0; i < ids.size(); i = end) {
-    const std::uint32_t id = ids[i];
-    while (end < ids.size() && ids[end] == id) ++end;
+/// Lifts points first ... last - 1.
+void lift_points(std::size_t first, std::size_t last, const TriangleView& triangles, SmoothCache& smooth,
+                 VisiblePoints& points) {
+  points::SideFinder sides(points, triangles);
+  for (std::size_t i = first; i < last; ++i) {
+    const std::uint32_t id = points.triangles[i];
     if (id >= triangles.triangles.size()) continue;
-    const points::SmoothSurface& surface = smooth.find(view, triangles, id);
-    for (std::size_t k = i; surface.lifts && k < end; ++k)
-      positions[k] = points::lifted(surface, positions[k]);
+    const points::SmoothSurface& surface = smooth.find(triangles, id, sides, i);
+    if (surface.lifts) points.positions[i] = points::lifted(surface, points.positions[i]);
   }
 }
 
@@ -85,8 +91,7 @@ void compute_rows(std::span<const std::uint32_t> ids, std::size_t first, std::si
       for (std::size_t i = x; i < end; ++i)
         rows[i] = points::visible_point(receiver, eye + ((static_cast<double>(i) + 0.5) * dx + row.row), d0);
     }
-    if (!triangles.normals.empty())
-      lift_points({&out.triangles[y * width], width}, view, triangles, smooth, rows);
+    if (!triangles.normals.empty()) lift_points(y * width, (y + 1) * width, triangles, smooth, out);
   }
 }
 
@@ -105,11 +110,12 @@ void compute_visible_points(std::span<const std::uint32_t> ids, int width, int h
   const bool kept = layout != PointLayout::tiles, tiled = layout != PointLayout::rows;
   out.width = width;
   out.height = height;
-  out.view = view;
+  out.seen_from = view;
+  out.sides.clear();
   out.positions.resize(kept ? ids.size() : 0);
   out.triangles.resize(ids.size());
   if (!tiled) out.tiles.clear();
-  if (tiled) points::begin_point_tiles(width, height, view, *out.tiles);
+  if (tiled) points::begin_point_tiles(width, height, *out.tiles);
   const points::SquareGrid grid(width, height);
   const auto columns = static_cast<std::size_t>(width);
   // Tiles are made while ids and positions are still in the cache.
@@ -133,15 +139,14 @@ dvec3 visible_position(const VisiblePoints& points, const TriangleView& triangle
   return points::PositionFinder(points, triangles).at(pixel);
 }
 
-void lift_visible_points(const ViewRays& view, const TriangleView& triangles, VisiblePoints& points) {
+void lift_visible_points(const TriangleView& triangles, VisiblePoints& points) {
   const parallel::FloatEnvironment ieee;
   if (triangles.normals.empty()) return;
   parallel::parallel_ranges(points.positions.size(), 4096, [&](std::size_t first, std::size_t last) {
     SmoothCache smooth;
-    lift_points(std::span(points.triangles).subspan(first, last - first), view, triangles, smooth,
-                &points.positions[first]);
+    lift_points(first, last, triangles, smooth, points);
   });
-  if (!points.tiles.empty()) points::make_point_tiles(points, view, triangles, *points.tiles);
+  if (!points.tiles.empty()) points::make_point_tiles(points, triangles, *points.tiles);
 }
 
 namespace points {
@@ -152,7 +157,7 @@ dvec3 PositionFinder::at(std::size_t pixel) {
   const std::uint32_t id = points_.triangles[pixel];
   if (id != receiver_.id) {
     receiver_ = receiver_of(triangles_, id);
-    smooth_ = smooth_surface(triangles_, id, points_.view);
+    if (!triangles_.normals.empty()) smooth_ = smooth_surface(triangles_, id, sides_.at(pixel));
   }
   const dvec3 p = rays_.point_on(receiver_, pixel % width, pixel / width);
   return smooth_.lifts ? lifted(smooth_, p) : p;
@@ -161,7 +166,10 @@ dvec3 PositionFinder::at(std::size_t pixel) {
 const VisiblePoints& with_positions(const VisiblePoints& points, const TriangleView& triangles,
                                     VisiblePoints& scratch) {
   if (!points.positions.empty() || points.triangles.empty()) return points;
-  compute_visible_points(points.triangles, points.width, points.height, points.view, triangles, scratch);
+  assert(ViewOfSamples::of(points.seen_from) != nullptr);
+  compute_visible_points(points.triangles, points.width, points.height,
+                         ViewOfSamples::or_any(points.seen_from), triangles, scratch);
+  scratch.sides = points.sides;
   return scratch;
 }
 

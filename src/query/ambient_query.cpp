@@ -1,4 +1,4 @@
-// Ambient occlusion of points: the geometry and the stand-ins of the points without a triangle as a scene.
+// Ambient occlusion of points: the geometry as a scene.
 #include "query/tracer_state.h"
 
 namespace tenebra {
@@ -44,11 +44,11 @@ Expected<void> PointTracer::ambient_occlusion(const Geometry& geometry, const Qu
   }
   if (s.follow(geometry.data_) || s.occluded != s.version) s.ambient = AmbientOcclusion();
   s.occluded = s.version;
-  const bool some_apart = query::need_stand_ins(points);
+  if (query::some_free(points)) config.place = AoPlace::pixels;  // a point in the air has no vertices
 
   return query::in_portions(points, stop, progress, [&](const query::Portion& portion) -> Expected<void> {
-    if (!s.stand_ins.follow(geometry.data_, some_apart ? portion.count() : 0, stop)) return base::stopped();
-    const TriangleView triangles = s.triangles(true);
+    if (!s.scene.follow(geometry.data_, stop)) return base::stopped();
+    const TriangleView triangles = triangle_view(s.scene.geometry());
     s.begin(points, portion);
     s.normals.assign(portion.pixels(), glm::vec3(0.0f));
     query::each_point(portion, [&](std::size_t i, std::size_t pixel) {
@@ -56,10 +56,9 @@ Expected<void> PointTracer::ambient_occlusion(const Geometry& geometry, const Qu
       const std::uint32_t triangle = query::triangle_of(points, point);
       const dvec3 normal = open_normal(points, point, triangles);
       s.normals[pixel] = glm::vec3(normal);
-      s.seen.triangles[pixel] = triangle == no_triangle ? s.stand_ins.id(i) : triangle;
-      if (triangle == no_triangle) s.stand_ins.set(i, points.positions[point], normal, query::StandAt::point);
+      s.seen.triangles[pixel] = triangle == no_triangle ? free_point : triangle;
     });
-    if (auto done = s.ambient.compute(s.stand_ins.scene(), s.stand_ins.geometry(), s.seen, s.normals, config,
+    if (auto done = s.ambient.compute(s.scene.scene(), s.scene.geometry(), s.seen, s.normals, config,
                                       s.openness, {}, stop);
         !done)
       return done;

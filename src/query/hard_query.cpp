@@ -1,10 +1,10 @@
-// Hard masks of points. The eye is placed at the light: points whose given side the light is on are traced,
-// and the tracer's own test of sides agrees. Points on the other side are dark.
+// Hard masks of points. A point that does not say on which side of its triangle it is is on the light's.
 #include <algorithm>
 #include <cmath>
 
 #include "points/triangle_corners.h"
 #include "query/tracer_state.h"
+#include "shadow/decision/triangle_planes.h"
 
 namespace tenebra {
 namespace {
@@ -33,30 +33,22 @@ Expected<void> check_light(const ShadowLight& light) {
   return {};
 }
 
-ViewRays view_from(const ShadowLight& light) {
-  ViewRays view;
-  view.orthographic = light.directional;
-  view.eye = light.position;
-  if (light.directional) view.d0 = -light.to_light;
-  return view;
-}
-
 /// The side of triangles that the light is on; quick for a run of points on one.
 class LightSide {
 public:
-  LightSide(const TriangleView& triangles, const ViewRays& from_light)
-      : triangles_(triangles), view_(from_light) {}
+  LightSide(const TriangleView& triangles, const ShadowLight& light)
+      : triangles_(triangles), source_(shadow::ray_source(light)) {}
   int operator()(std::uint32_t triangle) {
     if (triangle != last_) {
       last_ = triangle;
-      side_ = points::eye_side(points::corners_of(triangles_, triangle).v, view_);
+      side_ = -shadow::light_side(points::corners_of(triangles_, triangle).v, source_);
     }
     return side_;
   }
 
 private:
   const TriangleView& triangles_;
-  const ViewRays& view_;
+  const shadow::RaySource source_;
   std::uint32_t last_ = no_triangle;
   int side_ = 0;
 };
@@ -81,31 +73,28 @@ Expected<void> PointTracer::hard_mask(const Geometry& geometry, const QueryPoint
   if (auto checked = check_light(light); !checked) return checked;
   if (auto checked = query::check_points(points, *geometry.data_); !checked) return checked;
   s.follow(geometry.data_);
-  const ViewRays view = view_from(light);
-  const bool some_apart = query::need_stand_ins(points);
 
   return query::in_portions(points, stop, progress, [&](const query::Portion& portion) -> Expected<void> {
-    if (some_apart && !s.stand_ins.follow(geometry.data_, portion.count(), stop)) return base::stopped();
-    const TriangleView triangles = s.triangles(some_apart);
+    const TriangleView triangles = s.triangles();
     s.begin(points, portion);
     query::each_run(portion, [&](std::size_t first, std::size_t last) {
-      LightSide light_side(triangles, view);
+      LightSide light_side(triangles, light);
       for (std::size_t i = first; i < last; ++i) {
         const std::size_t point = portion.first() + i, pixel = portion.pixel(i);
         const std::uint32_t triangle = query::triangle_of(points, point);
         if (triangle != no_triangle) {
           const int side = query::said_side(points, point, triangles);
-          if (side == 0 || side == light_side(triangle)) s.seen.triangles[pixel] = triangle;
+          s.seen.triangles[pixel] = triangle;
+          s.seen.sides[pixel] = static_cast<std::int8_t>(side != 0 ? side : light_side(triangle));
           continue;
         }
         const dvec3 to_light = towards(light, points.positions[point]);
         const dvec3 normal(query::normal_of(points, point));
         if (normal != dvec3(0.0) && !(glm::dot(normal, to_light) > 0)) continue;
-        s.stand_ins.set(i, points.positions[point], to_light, query::StandAt::behind);
-        s.seen.triangles[pixel] = s.stand_ins.id(i);
+        s.seen.triangles[pixel] = free_point;
       }
     });
-    if (!s.hard.trace_shadow_mask(s.seen, view, triangles, light, config, s.mask, stop))
+    if (!s.hard.trace_shadow_mask(s.seen, triangles, light, config, s.mask, stop))
       return base::stopped();
     query::each_point(portion,
                       [&](std::size_t i, std::size_t pixel) { mask[portion.first() + i] = s.mask[pixel]; });

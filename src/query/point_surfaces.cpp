@@ -78,7 +78,7 @@ Expected<void> check_points(const QueryPoints& points, const GeometryData& geome
   return {};
 }
 
-bool need_stand_ins(const QueryPoints& points) {
+bool some_free(const QueryPoints& points) {
   const auto& on = points.triangles;
   return on.empty() || std::find(on.begin(), on.end(), no_triangle) != on.end();
 }

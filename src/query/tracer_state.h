@@ -8,9 +8,9 @@
 #include <tenebra/queries.h>
 #include "base/fail.h"
 #include "query/geometry_data.h"
+#include "query/geometry_scene.h"
 #include "query/point_surfaces.h"
 #include "query/portion.h"
-#include "query/stand_ins.h"
 
 namespace tenebra::query {
 
@@ -20,15 +20,13 @@ struct TracerState {
   ShadowTracer hard;
   SoftShadowTracer soft;
   AmbientOcclusion ambient;
-  StandIns stand_ins;
+  GeometryScene scene;  ///< for `ambient`
 
   VisiblePoints seen;              ///< a portion
   std::vector<glm::vec3> normals;  ///< its shading normals
   ShadowMask mask;
   SoftMask visible;
   std::vector<float> openness;
-  std::vector<std::uint8_t> eyes;    ///< for each point of a portion, the number of its eye in light_eyes
-  std::vector<ViewRays> light_eyes;  ///< views from the vertices of a light
 
   std::shared_ptr<const GeometryData> followed;
   std::uint64_t revision = 0;
@@ -43,18 +41,18 @@ struct TracerState {
     return true;
   }
 
-  /// The triangles that a portion meets; stand-ins change from portion to portion.
-  TriangleView triangles(bool with_stand_ins) const {
-    if (with_stand_ins) return triangle_view(stand_ins.geometry());
+  /// The triangles that hard and soft shadows meet.
+  TriangleView triangles() const {
     TriangleView view = view_of(*followed);
     view.version = version;
     return view;
   }
 
-  /// A portion's points; which triangles they lie on is not set yet.
+  /// A portion's points; which triangles they lie on, and on which sides, is not set yet.
   void begin(const QueryPoints& points, const Portion& portion) {
     seen.width = portion.width(), seen.height = portion.height();
     seen.tiles.clear();
+    seen.sides.assign(portion.pixels(), 0);
     seen.triangles.assign(portion.pixels(), no_triangle);
     seen.positions.resize(portion.pixels());
     each_point(portion, [&](std::size_t i, std::size_t pixel) {

@@ -17,6 +17,8 @@ void points_from_depth(const ViewRays& view, const visibility::VisibleIds& seen,
   points.width = seen.width;
   points.height = seen.height;
   points.triangles = seen.ids;
+  points.sides.clear();
+  points.seen_from = view;
   points.tiles.clear();
   points.positions.resize(width * height);
   parallel::parallel_ranges(height, 16, [&](std::size_t first, std::size_t last) {
@@ -52,9 +54,9 @@ void find_lifted_points(const Frame& frame, const visibility::VisibleIds& seen, 
   if (!needs_normals(frame))
     return compute_visible_points(seen.ids, seen.width, seen.height, view, smooth, out.points, layout);
   compute_visible_points(seen.ids, seen.width, seen.height, view, frame.triangles(), out.points);
-  compute_shading_normals(out.points, frame.input.geometry.normals, view, frame.triangles(), out.normals);
-  lift_visible_points(view, smooth, out.points);
-  if (layout != PointLayout::rows) points::make_point_tiles(out.points, view, smooth, *out.points.tiles);
+  compute_shading_normals(out.points, frame.input.geometry.normals, frame.triangles(), out.normals);
+  lift_visible_points(smooth, out.points);
+  if (layout != PointLayout::rows) points::make_point_tiles(out.points, smooth, *out.points.tiles);
 }
 
 void find_points(const Frame& frame, const visibility::VisibleIds& seen, LitSamples& out) {
@@ -66,7 +68,7 @@ void find_points(const Frame& frame, const visibility::VisibleIds& seen, LitSamp
   const TriangleView triangles = frame.triangles();
   compute_visible_points(seen.ids, seen.width, seen.height, view, triangles, out.points, layout_for(frame));
   if (needs_normals(frame))
-    compute_shading_normals(out.points, frame.input.geometry.normals, view, triangles, out.normals);
+    compute_shading_normals(out.points, frame.input.geometry.normals, triangles, out.normals);
 }
 
 /// 1 where a mask is lit, else 0.

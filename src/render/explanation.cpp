@@ -37,7 +37,7 @@ std::vector<Sightline> lines_to(const PixelQuestion& question, const shadow::Sam
   if (lifts_points(question.settings)) triangles.normals = question.geometry.normals;
   HardShadowConfig config = question.settings.hard;
   if (light.area) config.cull_front = false;  // soft shadows do not cull by facing
-  return shadow::find_sightlines(sample, question.view, triangles, targets, config);
+  return shadow::find_sightlines(sample, triangles, targets, config);
 }
 
 /// The pixel's sample, where shadows ask about it, and its shading normal.
@@ -52,13 +52,15 @@ ShadedSample sample_of(const PixelQuestion& question, std::uint32_t id) {
   VisiblePoints one;
   one.width = one.height = 1;
   one.triangles = {id};
+  one.seen_from = question.view;
   one.positions = {points::PixelRays(question.view).point_on(points::receiver_of(triangles, id), x, y)};
   std::vector<glm::vec3> normal;
-  compute_shading_normals(one, question.geometry.normals, question.view, triangles, normal);
+  compute_shading_normals(one, question.geometry.normals, triangles, normal);
   if (lifts_points(question.settings)) triangles.normals = question.geometry.normals;
-  const points::SmoothSurface smooth = points::smooth_surface(triangles, id, question.view);
+  const int side = visible_side(one, triangles, 0);
+  const points::SmoothSurface smooth = points::smooth_surface(triangles, id, side);
   const glm::dvec3 point = one.positions[0];
-  return {{smooth.lifts ? points::lifted(smooth, point) : point, id}, normal[0]};
+  return {{smooth.lifts ? points::lifted(smooth, point) : point, id, side}, normal[0]};
 }
 
 void explain_point(const PixelQuestion& question, const ShadedSample& shaded, const DrawnLight& light,

@@ -72,7 +72,7 @@ void find_surfaces_seen(const Frame& frame, const visibility::VisibleIds& seen, 
   compute_visible_points(seen.ids, seen.width, seen.height, view, triangles, at);
   if (wanted.depth) out.depth = empty_picture(seen, 1, std::numeric_limits<float>::infinity());
   if (wanted.normal) {
-    compute_shading_normals(at, frame.input.geometry.normals, view, triangles, facing);
+    compute_shading_normals(at, frame.input.geometry.normals, triangles, facing);
     out.normal = empty_picture(seen, 3, 0.0f);
   }
   const glm::dvec3 axis = view_axis(view), eye(view.eye);

@@ -56,9 +56,8 @@ std::vector<glm::vec3> points_on_light(const AreaLight& light, int count) {
 }
 
 bool LightPointShadows::trace(const VisiblePoints& points, std::span<const glm::vec3> normals,
-                              const ViewRays& view, const TriangleView& triangles, const AreaLight& light,
-                              int count, const HardShadowConfig& config, SoftMask& out,
-                              const StopFlag* stop) {
+                              const TriangleView& triangles, const AreaLight& light, int count,
+                              const HardShadowConfig& config, SoftMask& out, const StopFlag* stop) {
   const parallel::FloatEnvironment ieee;
   stats_ = {};
   timings_ = {};
@@ -70,8 +69,8 @@ bool LightPointShadows::trace(const VisiblePoints& points, std::span<const glm::
   for (std::size_t first = 0; first < places_.size(); first += masks_.size()) {
     const auto some = std::span(places_).subspan(first, std::min(masks_.size(), places_.size() - first));
     for (std::size_t k = 0; k < some.size(); ++k) {
-      if (!tracer_.trace_shadow_mask(points, view, triangles, soft::light_at(light, some[k]), config,
-                                     masks_[k], stop))
+      if (!tracer_.trace_shadow_mask(points, triangles, soft::light_at(light, some[k]), config, masks_[k],
+                                     stop))
         return false;
       stats_ += tracer_.stats();
       add_shadow_stages(timings_, tracer_.timings());

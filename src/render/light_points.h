@@ -22,9 +22,9 @@ public:
   /// As SoftShadowTracer::trace with `light` as `count` points; `normals`: one per pixel. The same bits for
   /// any thread count, instruction set and variant. Returns false, with `out` unspecified, if `stop` was
   /// requested before the end.
-  bool trace(const VisiblePoints& points, std::span<const glm::vec3> normals, const ViewRays& view,
-             const TriangleView& triangles, const AreaLight& light, int count, const HardShadowConfig& config,
-             SoftMask& out, const StopFlag* stop = nullptr);
+  bool trace(const VisiblePoints& points, std::span<const glm::vec3> normals, const TriangleView& triangles,
+             const AreaLight& light, int count, const HardShadowConfig& config, SoftMask& out,
+             const StopFlag* stop = nullptr);
 
   const TraceStats& stats() const { return stats_; }  ///< of the last call, summed over the points
   const FrameTimings& timings() const { return timings_; }

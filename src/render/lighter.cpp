@@ -21,7 +21,7 @@ void lift(const Frame& frame, LitSamples& samples) {
   VisiblePoints& to = samples.lifted;
   to.triangles.clear();
   if (!frame.lifts_points()) return;
-  to.width = from.width, to.height = from.height, to.view = from.view;
+  to.width = from.width, to.height = from.height, to.seen_from = from.seen_from;
   to.triangles = from.triangles;
   to.positions.resize(from.positions.size());
   to.tiles.clear();
@@ -30,8 +30,8 @@ void lift(const Frame& frame, LitSamples& samples) {
       if (to.triangles[i] != no_triangle) to.positions[i] = from.positions[i];
   });
   const TriangleView smooth = frame.smooth_triangles();
-  lift_visible_points(frame.input.view, smooth, to);
-  points::make_point_tiles(to, frame.input.view, smooth, *to.tiles);
+  lift_visible_points(smooth, to);
+  points::make_point_tiles(to, smooth, *to.tiles);
 }
 
 void fill_levels(const std::vector<float>& fractions, ShadowMask& out) {
@@ -71,7 +71,7 @@ Expected<void> Lighter::trace_point(const Frame& frame, const DrawnLight& light,
   HardShadowConfig config = frame.settings.hard;
   config.contact = at.contact;
   config.count_pixel_nodes = told.mask != nullptr && frame.settings.diagnostics;
-  if (!hard_.trace_shadow_mask(at.lit_at(), frame.input.view, traced_triangles(frame, light),
+  if (!hard_.trace_shadow_mask(at.lit_at(), traced_triangles(frame, light),
                                shadow_light(light.light, light.placed), config, out.mask, frame.stop))
     return base::stopped();
   if (told.mask == nullptr) return {};
@@ -93,11 +93,11 @@ Expected<void> Lighter::trace_tint(const Frame& frame, const DrawnLight& light, 
   config.error_255 = settings.soft.error_255;
   config.same_surfaces = std::exchange(tint_has_surfaces_, true);
   config.contact = at.contact;
-  const bool done = light.area ? tint_.trace(at.lit_at(), at.normals, frame.input.view, triangles, surfaces,
-                                             *light.area, out.soft, config, out.tint.mask, frame.stop)
-                               : tint_.trace(at.lit_at(), frame.input.view, triangles, surfaces,
-                                             shadow_light(light.light, light.placed), out.mask, config,
-                                             out.tint.mask, frame.stop);
+  const bool done =
+      light.area ? tint_.trace(at.lit_at(), at.normals, triangles, surfaces, *light.area, out.soft, config,
+                               out.tint.mask, frame.stop)
+                 : tint_.trace(at.lit_at(), triangles, surfaces, shadow_light(light.light, light.placed),
+                               out.mask, config, out.tint.mask, frame.stop);
   return done ? Expected<void>() : Expected<void>(base::stopped());
 }
 

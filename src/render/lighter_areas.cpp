@@ -47,11 +47,10 @@ Expected<void> Lighter::trace_visible_part(const Frame& frame, const DrawnLight&
   const bool by_points = settings.soft_points > 0;
   const TriangleView triangles = traced_triangles(frame, light);
   const HardShadowConfig of_points{.variant = settings.hard.variant, .simd = settings.hard.simd};
-  const bool done = by_points
-                        ? light_points_.trace(at.lit_at(), at.normals, frame.input.view, triangles,
-                                              *light.area, settings.soft_points, of_points, out, frame.stop)
-                        : soft_.trace(at.lit_at(), at.normals, frame.input.view, triangles, *light.area,
-                                      settings.soft, out, frame.stop);
+  const bool done = by_points ? light_points_.trace(at.lit_at(), at.normals, triangles, *light.area,
+                                                    settings.soft_points, of_points, out, frame.stop)
+                              : soft_.trace(at.lit_at(), at.normals, triangles, *light.area, settings.soft,
+                                            out, frame.stop);
   if (!done && !by_points && !soft_.refusal().empty())
     return base::fail(ErrorKind::memory, "{}", soft_.refusal());
   if (!done) return base::stopped();

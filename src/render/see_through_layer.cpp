@@ -79,7 +79,7 @@ bool EyeTint::trace(const VisiblePoints& opaque, const LitSamples& layer, const 
   eye.directional = view.orthographic;
   eye.position = view.eye;
   eye.to_light = -view.d0;
-  if (!tracer_.trace(opaque, view, triangles, every, eye, lit_, {}, out, stop)) return false;
+  if (!tracer_.trace(opaque, triangles, every, eye, lit_, {}, out, stop)) return false;
   crossed_.assign(lit_.size(), 0);
   for (const std::uint32_t pixel : out.pixels) crossed_[pixel] = 1;
   for (std::uint32_t pixel = 0; pixel < lit_.size(); ++pixel) {
@@ -131,8 +131,7 @@ Expected<SeeThroughLayer::Colors> SeeThroughLayer::color(const Frame& frame,
   LitSamples& before = before_samples_;
   points::compute_sample_points(layer, opaque.places, count, frame.input.view, frame.triangles(),
                                 before.points);
-  compute_shading_normals(before.points, frame.input.geometry.normals, frame.input.view, frame.triangles(),
-                          before.normals);
+  compute_shading_normals(before.points, frame.input.geometry.normals, frame.triangles(), before.normals);
   return color(frame, before, opaque, lighter, shading);
 }
 
@@ -160,8 +159,7 @@ Expected<void> SeeThroughLayer::draw(const Frame& frame, const Centres& centres,
   LitSamples& before = before_centres_;
   compute_visible_points(seen.layer, seen.width, seen.height, frame.input.view, frame.triangles(),
                          before.points, PointLayout::rows_and_tiles);
-  compute_shading_normals(before.points, frame.input.geometry.normals, frame.input.view, frame.triangles(),
-                          before.normals);
+  compute_shading_normals(before.points, frame.input.geometry.normals, frame.triangles(), before.normals);
   const shade::PixelSamples lit = centres.samples();
   const auto drawn = color(frame, before, {points_behind(frame, centres), lit, {}}, lighter, shading);
   if (!drawn) return tl::unexpected(drawn.error());

@@ -161,16 +161,16 @@ bool ShadowTracer::follow(const TriangleView& triangles, SimdLevel simd, const S
   return state_->tiles.follow(triangles, simd, stop);
 }
 
-bool ShadowTracer::trace_shadow_mask(const VisiblePoints& seen, const ViewRays& view,
-                                     const TriangleView& triangles, const ShadowLight& light,
-                                     const HardShadowConfig& config, ShadowMask& mask, const StopFlag* stop) {
+bool ShadowTracer::trace_shadow_mask(const VisiblePoints& seen, const TriangleView& triangles,
+                                     const ShadowLight& light, const HardShadowConfig& config,
+                                     ShadowMask& mask, const StopFlag* stop) {
   const parallel::FloatEnvironment ieee;
   State& s = *state_;
   s.stats = {};
   s.timings = {};
   s.pixel_nodes.clear();
   if (config.variant == Variant::tiles &&
-      s.tiles.trace(seen, view, triangles, light, config, mask, s.stats, s.timings, stop)) {
+      s.tiles.trace(seen, triangles, light, config, mask, s.stats, s.timings, stop)) {
     if (config.count_pixel_nodes) s.tiles.spread_tests(seen.width, seen.height, s.pixel_nodes);
     s.ran = Variant::tiles;
     s.stats.lights_tiles = 1;
@@ -184,8 +184,8 @@ bool ShadowTracer::trace_shadow_mask(const VisiblePoints& seen, const ViewRays& 
   base::Stopwatch watch;
 
   const VisiblePoints& points = points::with_positions(seen, triangles, s.positions);
-  shadow::build_triangle_set(triangles, view, source, config, s.set);
-  shadow::generate_shadow_rays(points, view, triangles, light, source, s.set, s.keys, s.rays, s.at_light);
+  shadow::build_triangle_set(triangles, source, config, s.set);
+  shadow::generate_shadow_rays(points, triangles, light, source, s.set, s.keys, s.rays, s.at_light);
   s.timings.rays_ms = watch.lap_ms();
 
   if (parts.sorted) {

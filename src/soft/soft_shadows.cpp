@@ -107,9 +107,8 @@ struct SoftShadowTracer::State {
   }
   void gather();
   void count_shafts();
-  bool trace(const VisiblePoints& seen, std::span<const glm::vec3> normals, const ViewRays& view,
-             const TriangleView& triangles, const AreaLight& light, const SoftShadowConfig& config,
-             SoftMask& out, const StopFlag* stop);
+  bool trace(const VisiblePoints& seen, std::span<const glm::vec3> normals, const TriangleView& triangles,
+             const AreaLight& light, const SoftShadowConfig& config, SoftMask& out, const StopFlag* stop);
 };
 
 void SoftShadowTracer::State::prepare(const SoftShadowConfig& config) {
@@ -324,30 +323,29 @@ SoftShadowTracer& SoftShadowTracer::operator=(SoftShadowTracer&&) noexcept = def
 SoftShadowTracer::~SoftShadowTracer() = default;
 
 bool SoftShadowTracer::trace(const VisiblePoints& seen, std::span<const glm::vec3> normals,
-                             const ViewRays& view, const TriangleView& triangles, const AreaLight& light,
+                             const TriangleView& triangles, const AreaLight& light,
                              const SoftShadowConfig& config, SoftMask& out, const StopFlag* stop) {
   const parallel::FloatEnvironment ieee;
   if (state_->at_work) state_ = std::make_unique<State>();
   state_->at_work = true;
-  const bool done = state_->trace(seen, normals, view, triangles, light, config, out, stop);
+  const bool done = state_->trace(seen, normals, triangles, light, config, out, stop);
   state_->at_work = false;
   return done;
 }
 
 // Mora et al. 2012, Algorithm 2, with groups of points in place of visible triangles.
 bool SoftShadowTracer::State::trace(const VisiblePoints& seen, std::span<const glm::vec3> normals,
-                                    const ViewRays& view, const TriangleView& triangles,
-                                    const AreaLight& light, const SoftShadowConfig& config, SoftMask& out,
-                                    const StopFlag* stop) {
+                                    const TriangleView& triangles, const AreaLight& light,
+                                    const SoftShadowConfig& config, SoftMask& out, const StopFlag* stop) {
   const VisiblePoints& points = points::with_positions(seen, triangles, positions);
   prepare(config);
   clear_pixels(points, out);
   base::Stopwatch watch;
-  grouper.group(points, view, triangles, light, config.grouping, groups, config.simd);
+  grouper.group(points, triangles, light, config.grouping, groups, config.simd);
   timings.shaft_ms = watch.lap_ms();
 
   const soft::LightFrame frame_of_light = soft::light_frame(light);
-  const soft::SoftFrame frame{points, normals, view, triangles, frame_of_light, config, out, classes, stop};
+  const soft::SoftFrame frame{points, normals, triangles, frame_of_light, config, out, classes, stop};
   bool done = culler.for_each_family(groups, triangles, light, config, stop,
                                      [&](std::span<const soft::GroupDecision> family, int thread) {
                                        solve_family(frame, family, workers[static_cast<std::size_t>(thread)]);

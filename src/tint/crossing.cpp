@@ -51,11 +51,10 @@ bool crosses(const CrossingFrame& frame, const shadow::TrianglePlanes& planes, c
   const points::Corners c = points::corners_of(frame.triangles, planes.triangle);
   for (int k = 0; k < 3; ++k)
     if (!inside_edge(frame.source, c, k, point, planes.side)) return false;
-  const double threshold =
-      use_ids
-          ? points::contact_threshold(c.v, points::rounding_tolerance(c.v),
-                                      points::rounding_tolerance(points::corners_of(frame.triangles, own).v))
-          : 0.0;
+  const double threshold = use_ids
+                               ? points::contact_threshold(c.v, points::rounding_tolerance(c.v),
+                                                           points::own_tolerance(frame.triangles, own, point))
+                               : 0.0;
   return math::plane_excess(c.v[0], c.v[1], c.v[2], point, planes.side, threshold) > 0;
 }
 

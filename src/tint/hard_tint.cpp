@@ -209,10 +209,10 @@ void Worker::load(std::uint32_t tile, std::uint32_t lanes) {
     const bool asks = (lanes >> lane & 1u) != 0;
     const std::size_t pixel = asks ? f_.pixels(tile, lane) : 0;
     const dvec3 point = asks ? f_.points.positions[pixel] : f_.crossing.source.origin;
-    if (asks && f_.points.triangles[pixel] != own) {
+    if (asks && (f_.points.triangles[pixel] != own || own == free_point)) {
       own = f_.points.triangles[pixel];
       tau = f_.crossing.contact == ContactRule::triangle_ids
-                ? points::rounding_tolerance(points::corners_of(f_.crossing.triangles, own).v)
+                ? points::own_tolerance(f_.crossing.triangles, own, point)
                 : 0.0;
     }
     const dvec3 p = point - f_.crossing.source.origin;

@@ -123,7 +123,7 @@ void SoftTint::gather(TintMask& out, TintStats& stats) const {
   }
 }
 
-bool SoftTint::trace(const VisiblePoints& points, std::span<const glm::vec3> normals, const ViewRays& view,
+bool SoftTint::trace(const VisiblePoints& points, std::span<const glm::vec3> normals,
                      const TriangleView& triangles, const Surfaces& surfaces, const TriangleTree& tree,
                      const AreaLight& light, const SoftMask& mask, const TintConfig& config, TintMask& out,
                      TintStats& stats, const StopFlag* stop) {
@@ -131,7 +131,7 @@ bool SoftTint::trace(const VisiblePoints& points, std::span<const glm::vec3> nor
   const LightReach reach = reach_of(light, tolerance, triangles, surfaces);
   SoftShadowConfig soft_config;
   soft_config.simd = config.simd;
-  grouper_.group(points, view, triangles, light, SoftGrouping::neighbourhood, all_, config.simd);
+  grouper_.group(points, triangles, light, SoftGrouping::neighbourhood, all_, config.simd);
   choose_groups(tree, reach, mask);
   if (level_ != config.simd) workers_.clear();
   level_ = config.simd;
@@ -145,8 +145,7 @@ bool SoftTint::trace(const VisiblePoints& points, std::span<const glm::vec3> nor
     worker.stats = {};
   }
   const soft::LightFrame light_frame = soft::light_frame(light);
-  const soft::SoftFrame soft_frame{points,      normals, view, triangles, light_frame,
-                                   soft_config, unused_, {},   stop};
+  const soft::SoftFrame soft_frame{points, normals, triangles, light_frame, soft_config, unused_, {}, stop};
   const SoftTintFrame frame{
       soft_frame, mask, surfaces, reach, tolerance, config.own_irradiance, grid_side_for(config.error_255)};
   const bool done = culler_.for_each_family(groups_, triangles, light, soft_config, stop,

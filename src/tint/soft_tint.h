@@ -73,10 +73,9 @@ std::unique_ptr<SoftTintSolver> make_soft_tint_solver(SimdLevel level);
 class SoftTint {
 public:
   /// TintTracer::trace for an area light. False if it was stopped.
-  bool trace(const VisiblePoints& points, std::span<const glm::vec3> normals, const ViewRays& view,
-             const TriangleView& triangles, const Surfaces& surfaces, const TriangleTree& tree,
-             const AreaLight& light, const SoftMask& mask, const TintConfig& config, TintMask& out,
-             TintStats& stats, const StopFlag* stop);
+  bool trace(const VisiblePoints& points, std::span<const glm::vec3> normals, const TriangleView& triangles,
+             const Surfaces& surfaces, const TriangleTree& tree, const AreaLight& light, const SoftMask& mask,
+             const TintConfig& config, TintMask& out, TintStats& stats, const StopFlag* stop);
 
 private:
   struct Worker {

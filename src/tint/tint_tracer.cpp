@@ -20,10 +20,6 @@ constexpr base::Names<SeeThrough, 3> names = {{
     {SeeThrough::ignore, "ignore"},
 }};
 
-bool same_eye(const ViewRays& a, const ViewRays& b) {
-  return a.orthographic == b.orthographic && (a.orthographic ? a.d0 == b.d0 : a.eye == b.eye);
-}
-
 }  // namespace
 
 std::string_view see_through_name(SeeThrough see_through) {
@@ -90,7 +86,7 @@ const TintStats& TintTracer::stats() const {
   return state_->stats;
 }
 
-bool TintTracer::trace(const VisiblePoints& seen, const ViewRays& view, const TriangleView& triangles,
+bool TintTracer::trace(const VisiblePoints& seen, const TriangleView& triangles,
                        const SeeThroughSurfaces& surfaces, const ShadowLight& light, const ShadowMask& mask,
                        const TintConfig& config, TintMask& out, const StopFlag* stop) {
   const parallel::FloatEnvironment ieee;
@@ -98,15 +94,15 @@ bool TintTracer::trace(const VisiblePoints& seen, const ViewRays& view, const Tr
   base::Stopwatch watch;
   if (!s.begin(surfaces, triangles, config, out)) return true;
   const VisiblePoints& points = points::with_positions(seen, triangles, s.positions);
-  const bool ready = !points.tiles.empty() && same_eye(points.tiles->view, view);
-  if (!ready) points::make_point_tiles(points, view, triangles, s.own_tiles);
+  const bool ready = !points.tiles.empty();
+  if (!ready) points::make_point_tiles(points, triangles, s.own_tiles);
   const bool done = s.hard.trace(points, ready ? *points.tiles : s.own_tiles, triangles, s.surfaces, s.tree,
                                  light, mask, config, out, s.stats, stop);
   s.stats.ms = watch.lap_ms();
   return done;
 }
 
-bool TintTracer::trace(const VisiblePoints& seen, std::span<const glm::vec3> normals, const ViewRays& view,
+bool TintTracer::trace(const VisiblePoints& seen, std::span<const glm::vec3> normals,
                        const TriangleView& triangles, const SeeThroughSurfaces& surfaces,
                        const AreaLight& light, const SoftMask& mask, const TintConfig& config, TintMask& out,
                        const StopFlag* stop) {
@@ -115,8 +111,8 @@ bool TintTracer::trace(const VisiblePoints& seen, std::span<const glm::vec3> nor
   base::Stopwatch watch;
   if (!s.begin(surfaces, triangles, config, out)) return true;
   const VisiblePoints& points = points::with_positions(seen, triangles, s.positions);
-  const bool done = s.soft.trace(points, normals, view, triangles, s.surfaces, s.tree, light, mask, config,
-                                 out, s.stats, stop);
+  const bool done =
+      s.soft.trace(points, normals, triangles, s.surfaces, s.tree, light, mask, config, out, s.stats, stop);
   s.stats.ms = watch.lap_ms();
   return done;
 }

@@ -107,7 +107,7 @@ struct AoView {
   AoView(const Scene& scene, double time_s, const ViewRays& view, int width, int height) {
     evaluate_frame(scene, scene.clips.empty() ? -1 : 0, time_s, geometry);
     points = view_samples(triangle_view(geometry), view, width, height);
-    compute_shading_normals(points, geometry.normals, view, triangle_view(geometry), normals);
+    compute_shading_normals(points, geometry.normals, triangle_view(geometry), normals);
   }
 };
 

@@ -168,7 +168,7 @@ tenebra::ShadowMask mask_of_ids(const Scene& scene, const tenebra::HostFrame& fr
   tenebra::compute_visible_points(frame.ids, frame.width, frame.height, view, triangles, points);
   tenebra::ShadowTracer tracer;
   tenebra::ShadowMask mask;
-  tracer.trace_shadow_mask(points, view, triangles, {.position = scene.light}, {}, mask);
+  tracer.trace_shadow_mask(points, triangles, {.position = scene.light}, {}, mask);
   return mask;
 }
 

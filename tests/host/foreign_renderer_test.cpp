@@ -96,7 +96,7 @@ ShadowMask mask_of(const Instant& now, const std::vector<std::uint32_t>& ids, Va
   ShadowMask mask;
   const TriangleView triangles = triangle_view(now.geometry);
   compute_visible_points(ids, width, height, now.view, triangles, points);
-  tracer.trace_shadow_mask(points, now.view, triangles, {.position = now.light}, {.variant = variant}, mask);
+  tracer.trace_shadow_mask(points, triangles, {.position = now.light}, {.variant = variant}, mask);
   return mask;
 }
 

@@ -252,7 +252,7 @@ std::size_t check_seen_tiles(const points::PointTiles& seen, const points::Point
 TEST(PointTiles, AreTheSameForAllThreads) {
   const TiledCase c = tiled_room(35, 130, 70);
   points::PointTiles again;
-  with_threads(7, [&] { points::make_point_tiles(c.points, c.view, c.soup.view(), again); });
+  with_threads(7, [&] { points::make_point_tiles(seen_from(c.points, c.view), c.soup.view(), again); });
   EXPECT_TRUE(same_tiles(again, *c.points.tiles));
 }
 

@@ -20,7 +20,8 @@ using glm::vec3;
 const ViewRays from_outside = pinhole({0.3, 1.1, 6}, {0, 0, 0}, 0.2, 160, 120);
 
 points::SmoothSurface surface_of(const RoundBody& body, std::uint32_t id, const ViewRays& view) {
-  return points::smooth_surface(body.smooth(), id, view);
+  return points::smooth_surface(body.smooth(), id,
+                                points::eye_side(points::corners_of(body.flat(), id).v, view));
 }
 
 VisiblePoints seen(const RoundBody& body, const TriangleView& triangles, const ViewRays& view, int width,
@@ -160,7 +161,7 @@ TEST(SmoothSurface, AllLayoutsHaveTheSamePoints) {
                         tiles = seen(body, body.smooth(), view, width, height, PointLayout::tiles);
     VisiblePoints later = seen(body, body.flat(), view, width, height, PointLayout::rows_and_tiles);
     const VisiblePoints before = later;
-    lift_visible_points(view, body.smooth(), later);
+    lift_visible_points(body.smooth(), later);
     std::size_t moved = 0, points = 0;
     for (std::size_t i = 0; i < rows.triangles.size(); ++i) {
       if (rows.triangles[i] == no_triangle) continue;

@@ -86,7 +86,7 @@ TEST(PointTracer, HardMasksHaveTheBytesOfTheTracer) {
           ShadowLight{.directional = true, .to_light = {0.3f, 1, 0.2f}},
           ShadowLight{.position = {0.2f, 0.9f, 0.1f}, .spot_cos_outer = 0.8f, .range_m = 1.6f}}) {
       ShadowMask expected;
-      ShadowTracer().trace_shadow_mask(seen.visible, seen.view, seen.soup.view(), light, {}, expected);
+      ShadowTracer().trace_shadow_mask(seen.visible, seen.soup.view(), light, {}, expected);
       for (const int width : {96, 0}) {
         const auto mask = hard_mask(tracer, geometry, seen.points(width), light);
         for (std::size_t i = 0; i < mask.size(); ++i) {
@@ -102,7 +102,7 @@ TEST(PointTracer, SoftFractionsAreThoseOfTheTracer) {
   const Seen seen(3);
   const AreaLight light = make_rectangle_light({0.1f, 0.9f, -0.2f}, {0.2f, 0, 0}, {0, 0, 0.2f}).value();
   SoftMask expected;
-  SoftShadowTracer().trace(seen.visible, {}, seen.view, seen.soup.view(), light, {}, expected);
+  SoftShadowTracer().trace(seen.visible, {}, seen.soup.view(), light, {}, expected);
   PointTracer tracer;
   for (const int width : {96, 0}) {
     const Soft found = soft(tracer, geometry_of(seen.soup), seen.points(width), light);

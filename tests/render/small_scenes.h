@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "stage/cutout/cutout.h"
 #include "render/render_fixture.h"
+#include "stage/cutout/cutout.h"
 #include "stage/looks.h"
 
 namespace tenebra {

@@ -219,11 +219,11 @@ TEST(ShadowMaskStop, EndsEveryVariantEarly) {
   for (const Variant variant : all_variants) {
     c.config.variant = variant;
     stop.request();
-    EXPECT_FALSE(
-        ShadowTracer().trace_shadow_mask(c.points, c.view, c.soup.view(), c.light, c.config, mask, &stop));
+    EXPECT_FALSE(ShadowTracer().trace_shadow_mask(seen_from(c.points, c.view), c.soup.view(), c.light,
+                                                  c.config, mask, &stop));
     stop.reset();
-    EXPECT_TRUE(
-        ShadowTracer().trace_shadow_mask(c.points, c.view, c.soup.view(), c.light, c.config, mask, &stop));
+    EXPECT_TRUE(ShadowTracer().trace_shadow_mask(seen_from(c.points, c.view), c.soup.view(), c.light,
+                                                 c.config, mask, &stop));
     EXPECT_EQ(mask, oracle(c));
   }
 }
@@ -239,8 +239,8 @@ TEST(ShadowMaskStop, EndsWhatWouldTakeMinutes) {
     stop.request();
   });
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_FALSE(
-      ShadowTracer().trace_shadow_mask(c.points, c.view, c.soup.view(), c.light, c.config, mask, &stop));
+  EXPECT_FALSE(ShadowTracer().trace_shadow_mask(seen_from(c.points, c.view), c.soup.view(), c.light, c.config,
+                                                mask, &stop));
   later.join();
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
 }

@@ -175,7 +175,7 @@ TEST_P(DistantFaceBounds, HoldAllPointsOfTheirTiles) {
     const ViewRays view = pinhole(offset + scale * dvec3(-1.8, 1.5, -1.7), offset, 0.9, 96, 64);
     VisiblePoints points = view_samples(soup.view(), view, 96, 64);
     points::PointTiles tiles;
-    points::make_point_tiles(points, view, soup.view(), tiles);
+    points::make_point_tiles(seen_from(points, view), soup.view(), tiles);
     const dvec3 direction = direction_of_kind(turn % 3, random);
     const double distance = distances[static_cast<std::size_t>(turn) % std::size(distances)];
     const auto face =

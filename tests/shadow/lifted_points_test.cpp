@@ -111,10 +111,10 @@ TEST(LiftedPoints, HaveTheMaskOfTheDefinitionInAllVariants) {
         ShadowTracer tracer;
         ShadowMask mask;
         for (const Variant variant : all_variants) {
-          tracer.trace_shadow_mask(points, view, body.smooth(), light, {.variant = variant}, mask);
+          tracer.trace_shadow_mask(seen_from(points, view), body.smooth(), light, {.variant = variant}, mask);
           EXPECT_EQ(mask, wanted) << variant_name(variant) << ' ' << bumps << ' ' << orthographic;
         }
-        tracer.trace_shadow_mask(tiles, view, body.smooth(), light, {}, mask);
+        tracer.trace_shadow_mask(seen_from(tiles, view), body.smooth(), light, {}, mask);
         EXPECT_EQ(mask, wanted) << "tiles alone";
       }
     }
@@ -136,8 +136,8 @@ TEST(LiftedPoints, FloorsKeepTheirMask) {
   ShadowTracer tracer;
   ShadowMask one, other;
   const ShadowLight light{.position = {6, 3, 1}};
-  tracer.trace_shadow_mask(flat, view, body.flat(), light, {}, one);
-  tracer.trace_shadow_mask(smooth, view, body.smooth(), light, {}, other);
+  tracer.trace_shadow_mask(seen_from(flat, view), body.flat(), light, {}, one);
+  tracer.trace_shadow_mask(seen_from(smooth, view), body.smooth(), light, {}, other);
   std::size_t dark = 0, changed = 0;
   for (std::size_t i = 0; i < one.size(); ++i) {
     if (flat.triangles[i] < floor || flat.triangles[i] == no_triangle) {

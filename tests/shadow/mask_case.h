@@ -52,7 +52,7 @@ inline void Shares::print(const char* what) const {
 
 inline ShadowMask traced(const MaskCase& c, ShadowTracer& tracer) {
   ShadowMask mask;
-  tracer.trace_shadow_mask(c.points, c.view, c.soup.view(), c.light, c.config, mask);
+  tracer.trace_shadow_mask(seen_from(c.points, c.view), c.soup.view(), c.light, c.config, mask);
   return mask;
 }
 inline ShadowMask traced(const MaskCase& c) {

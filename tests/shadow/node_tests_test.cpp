@@ -64,8 +64,7 @@ struct RayTree {
   shadow::Traversal traversal;
 
   RayTree(const Arrangement& a, bool spheres) : view{a.corners, a.triangles, {}} {
-    shadow::build_triangle_set(view, ViewRays{.eye = {9, 9, 9}}, a.source, {.contact = ContactRule::none},
-                               set);
+    shadow::build_triangle_set(view, a.source, {.contact = ContactRule::none}, set);
     shadow::build_cone_tree(a.rays, a.points, a.source, SimdLevel::automatic, tree);
     traversal = {{spheres, true, a.source.directional},
                  &set,
@@ -246,8 +245,7 @@ TEST(NodeBounds, TheSphereOfATriangleIsTheSmallest) {
     if (i == 0) corners = {{1, 0, 0}, {-0.5f, 0.8660254f, 0}, {-0.5f, -0.8660254f, 0}};
     const std::vector<glm::uvec3> triangles{{0, 1, 2}};
     shadow::TriangleSet set;
-    shadow::build_triangle_set({corners, triangles, {}}, ViewRays{.eye = {9, 9, 9}}, source,
-                               {.contact = ContactRule::none}, set);
+    shadow::build_triangle_set({corners, triangles, {}}, source, {.contact = ContactRule::none}, set);
     if (set.bounds.empty()) continue;
     std::array<double, 3> edges{};
     for (std::size_t k = 0; k < 3; ++k)

@@ -65,10 +65,10 @@ void expect_first_blockers(const MaskCase& c, SightCounts& counts) {
   const oracle::ExactShadow oracle(c.view, c.soup.view(), c.light, c.config);
   const ShadowMask mask = traced(c);
   for (std::size_t i = 0; i < c.points.triangles.size(); ++i) {
-    const Sample sample{c.points.positions[i], c.points.triangles[i]};
+    Sample sample{c.points.positions[i], c.points.triangles[i]};
     if (sample.triangle == no_triangle) continue;
-    const Sightline line =
-        shadow::find_sightlines(sample, c.view, c.soup.view(), {&c.light, 1}, c.config).front();
+    sample.side = points::eye_side(points::corners_of(c.soup.view(), sample.triangle).v, c.view);
+    const Sightline line = shadow::find_sightlines(sample, c.soup.view(), {&c.light, 1}, c.config).front();
     ASSERT_EQ(line.sight == LightSight::lit, mask[i] == 255) << c.name << ", sample " << i;
     const bool active = oracle.active(sample.point, sample.triangle);
     ASSERT_EQ(line.sight == LightSight::faces_away || line.sight == LightSight::out_of_reach, !active)
@@ -121,7 +121,8 @@ TEST(Sightlines, KnowConesRangesAndDoublePlanes) {
   c.light = point_light({0, 2, 0});
   c.view = pinhole({0.1, 3, 0.1}, {0, 0, 0.01}, 1, 8, 8);
   const auto sight = [&](dvec3 point, std::uint32_t triangle) {
-    return shadow::find_sightlines({point, triangle}, c.view, c.soup.view(), {&c.light, 1}, c.config).front();
+    const int side = points::eye_side(points::corners_of(c.soup.view(), triangle).v, c.view);
+    return shadow::find_sightlines({point, triangle, side}, c.soup.view(), {&c.light, 1}, c.config).front();
   };
   const Sightline below = sight({0.1, 0, 0.05}, 0);
   EXPECT_EQ(below.sight, LightSight::blocked);
@@ -160,15 +161,14 @@ TEST(Sightlines, AgreeWithTheMaskOfLiftedPoints) {
        {point_light({6, 3, 1}), point_light({-2, 2.6, -3}), sun({-1, 0.4, -0.3})}) {
     ShadowMask mask;
     ShadowTracer tracer;
-    tracer.trace_shadow_mask(points, view, body.smooth(), light, {}, mask);
+    tracer.trace_shadow_mask(seen_from(points, view), body.smooth(), light, {}, mask);
     for (std::size_t i = 0; i < mask.size(); ++i) {
       if (points.triangles[i] == no_triangle) continue;
-      const Sample sample{points.positions[i], points.triangles[i]};
-      const Sightline line = shadow::find_sightlines(sample, view, body.smooth(), {&light, 1}, {}).front();
+      const Sample sample{points.positions[i], points.triangles[i], visible_side(points, body.smooth(), i)};
+      const Sightline line = shadow::find_sightlines(sample, body.smooth(), {&light, 1}, {}).front();
       ASSERT_EQ(line.sight == LightSight::lit, mask[i] == 255) << i;
-      const bool flat_active =
-          shadow::find_sightlines(sample, view, body.flat(), {&light, 1}, {}).front().sight !=
-          LightSight::faces_away;
+      const bool flat_active = shadow::find_sightlines(sample, body.flat(), {&light, 1}, {}).front().sight !=
+                               LightSight::faces_away;
       lit_beyond += mask[i] == 255 && !flat_active;
       away += line.sight == LightSight::faces_away;
     }
@@ -187,16 +187,16 @@ TEST(Sightlines, AnswerForManyLightsAndAnyThreads) {
   for (int i = 0; i < 9; ++i)
     lights.push_back(i % 4 == 3 ? sun(random.direction()) : point_light(random.in_cube(1)));
   for (std::size_t i = 0; i < c.points.triangles.size(); i += 5) {
-    const Sample sample{c.points.positions[i], c.points.triangles[i]};
+    Sample sample{c.points.positions[i], c.points.triangles[i]};
     if (sample.triangle == no_triangle) continue;
+    sample.side = points::eye_side(points::corners_of(c.soup.view(), sample.triangle).v, c.view);
     std::vector<Sightline> together;
-    with_threads(
-        3, [&] { together = shadow::find_sightlines(sample, c.view, c.soup.view(), lights, c.config); });
+    with_threads(3, [&] { together = shadow::find_sightlines(sample, c.soup.view(), lights, c.config); });
     ASSERT_EQ(together.size(), lights.size());
     for (std::size_t k = 0; k < lights.size(); ++k) {
       Sightline alone;
       with_threads(1, [&] {
-        alone = shadow::find_sightlines(sample, c.view, c.soup.view(), {&lights[k], 1}, c.config).front();
+        alone = shadow::find_sightlines(sample, c.soup.view(), {&lights[k], 1}, c.config).front();
       });
       EXPECT_EQ(together[k].sight, alone.sight);
       EXPECT_EQ(together[k].first, alone.first);

@@ -66,13 +66,13 @@ TEST(Tiles, TakeTheCallersWordThatNothingMoved) {
   view.version = 7;
   ShadowTracer tracer;
   ShadowMask first, second, third;
-  tracer.trace_shadow_mask(c.points, c.view, view, c.light, {}, first);
-  tracer.trace_shadow_mask(c.points, c.view, view, c.light, {}, second);
+  tracer.trace_shadow_mask(seen_from(c.points, c.view), view, c.light, {}, first);
+  tracer.trace_shadow_mask(seen_from(c.points, c.view), view, c.light, {}, second);
   EXPECT_EQ(first, second);
   for (glm::vec3& p : c.soup.positions) p.y += p.y > 0 ? 0.3f : 0.0f;
   view = c.soup.view();
   view.version = 8;
-  tracer.trace_shadow_mask(c.points, c.view, view, c.light, {}, third);
+  tracer.trace_shadow_mask(seen_from(c.points, c.view), view, c.light, {}, third);
   EXPECT_TRUE(same_mask(c, third, by_cone_tree(c)));
 }
 
@@ -93,7 +93,7 @@ TEST(Tiles, OfSeveralTracersCanShareTheTreeOverTheTriangles) {
     triangles.casts_shadow = none;  // the word of the version counts, for the others too
     parallel::parallel_tasks(4, [&](int i) {
       const auto k = static_cast<std::size_t>(i);
-      tracers[k].trace_shadow_mask(c.points, c.view, triangles, light(i), {}, masks[k]);
+      tracers[k].trace_shadow_mask(seen_from(c.points, c.view), triangles, light(i), {}, masks[k]);
     });
     for (int i = 0; i < 4; ++i) {
       const auto k = static_cast<std::size_t>(i);

@@ -297,7 +297,8 @@ TEST(SoftMetamorphic, BuffersOfEarlierCallsDoNotMatter) {
   SoftShadowTracer tracer;
   for (const SoftCase* c : {&first, &second, &first}) {
     SoftMask mask;
-    ASSERT_TRUE(tracer.trace(c->points, c->normals, c->view, c->soup.view(), c->light, c->config, mask));
+    ASSERT_TRUE(
+        tracer.trace(seen_from(c->points, c->view), c->normals, c->soup.view(), c->light, c->config, mask));
     EXPECT_TRUE(same_bits(mask, traced(*c, c->config))) << c->name;
   }
 }
@@ -308,9 +309,11 @@ TEST(SoftMetamorphic, AStopIsHeard) {
   SoftMask mask;
   StopFlag stop;
   stop.request();
-  EXPECT_FALSE(tracer.trace(c.points, c.normals, c.view, c.soup.view(), c.light, c.config, mask, &stop));
+  EXPECT_FALSE(
+      tracer.trace(seen_from(c.points, c.view), c.normals, c.soup.view(), c.light, c.config, mask, &stop));
   stop.reset();
-  EXPECT_TRUE(tracer.trace(c.points, c.normals, c.view, c.soup.view(), c.light, c.config, mask, &stop));
+  EXPECT_TRUE(
+      tracer.trace(seen_from(c.points, c.view), c.normals, c.soup.view(), c.light, c.config, mask, &stop));
   EXPECT_TRUE(same_bits(mask, traced(c, c.config))) << "after a stop";
 }
 
@@ -329,10 +332,11 @@ TEST(SoftMetamorphic, AStopAtAnyTimeLeavesNothingBehind) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5 * i));
       stop.request();
     });
-    if (!tracer.trace(c.points, c.normals, c.view, c.soup.view(), c.light, c.config, mask, &stop)) ++stopped;
+    if (!tracer.trace(seen_from(c.points, c.view), c.normals, c.soup.view(), c.light, c.config, mask, &stop))
+      ++stopped;
     asker.join();
-    ASSERT_TRUE(tracer.trace(small.points, small.normals, small.view, small.soup.view(), small.light,
-                             small.config, mask));
+    ASSERT_TRUE(tracer.trace(seen_from(small.points, small.view), small.normals, small.soup.view(),
+                             small.light, small.config, mask));
     EXPECT_TRUE(same_bits(mask, mask_of_small)) << "after " << 5 * i << " ms";
     EXPECT_EQ(tracer.stats().points_lit, expected.points_lit);
   }

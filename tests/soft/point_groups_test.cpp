@@ -15,9 +15,13 @@ namespace {
 
 using glm::dvec3;
 
+int seen_side(const TriangleView& triangles, std::uint32_t id, const ViewRays& view) {
+  return points::eye_side(points::corners_of(triangles, id).v, view);
+}
+
 soft::PointGroups groups_by(const GroupCase& c, SoftGrouping grouping) {
   soft::PointGroups groups;
-  soft::group_points(c.points, c.view, c.soup.view(), c.light, grouping, groups);
+  soft::group_points(seen_from(c.points, c.view), c.soup.view(), c.light, grouping, groups);
   return groups;
 }
 
@@ -25,7 +29,7 @@ soft::PointGroups groups_by(const GroupCase& c, SoftGrouping grouping) {
 /// Seen edge-on: never reached.
 double out_of_reach(const GroupCase& c, std::size_t pixel) {
   const std::uint32_t id = c.points.triangles[pixel];
-  if (id == no_triangle || soft::seen_side(c.soup.view(), id, c.view) == 0) return INFINITY;
+  if (id == no_triangle || seen_side(c.soup.view(), id, c.view) == 0) return INFINITY;
   const dvec3 p = c.points.positions[pixel];
   const double size = glm::length(p) + glm::length(c.light.centre);
   double out = -glm::dot(p - c.light.centre, c.light.normal) / size;
@@ -34,7 +38,7 @@ double out_of_reach(const GroupCase& c, std::size_t pixel) {
   double below = INFINITY;
   for (const glm::dvec2& v : c.light.polygon) {
     const dvec3 q = light_point(c.light, v);
-    const double height = glm::dot(glm::cross(e, f), q - a) * soft::seen_side(c.soup.view(), id, c.view);
+    const double height = glm::dot(glm::cross(e, f), q - a) * seen_side(c.soup.view(), id, c.view);
     below = std::min(below, -height / (glm::length(e) * glm::length(f) *
                                        (glm::length(q) + glm::length(a) + glm::length(c.light.centre))));
   }
@@ -97,7 +101,7 @@ void expect_true_groups(const GroupCase& c, SoftGrouping grouping) {
     std::vector<std::uint32_t> listed;
     for (const soft::Receiver& receiver : groups.receivers_of(group)) {
       listed.push_back(receiver.triangle);
-      EXPECT_EQ(receiver.side, soft::seen_side(c.soup.view(), receiver.triangle, c.view));
+      EXPECT_EQ(receiver.side, seen_side(c.soup.view(), receiver.triangle, c.view));
     }
     EXPECT_EQ(listed, std::vector<std::uint32_t>(receivers.begin(), receivers.end()));
     if (grouping == SoftGrouping::triangle) {
@@ -229,20 +233,6 @@ TEST(PointGroups, LeaveOutWhatTheLightCannotReach) {
   EXPECT_GT(points, 0u);
 }
 
-TEST(PointGroups, KnowTheSeenSide) {
-  GroupCase c = stage(4, 4);
-  EXPECT_EQ(soft::seen_side(c.soup.view(), 0, c.view), 1);
-  c.view.eye.y = -1;
-  EXPECT_EQ(soft::seen_side(c.soup.view(), 0, c.view), -1);
-  c.view.eye.y = 0;
-  EXPECT_EQ(soft::seen_side(c.soup.view(), 0, c.view), 0);
-  c.view.orthographic = true;
-  c.view.d0 = {0.3f, -0.1f, 0};
-  EXPECT_EQ(soft::seen_side(c.soup.view(), 0, c.view), 1) << "rays that come down";
-  c.view.d0 = {1, 0, 1};
-  EXPECT_EQ(soft::seen_side(c.soup.view(), 0, c.view), 0);
-}
-
 /// All that is known of the groups, bit for bit.
 std::vector<double> numbers_of(const soft::PointGroups& groups) {
   std::vector<double> all;
@@ -277,7 +267,7 @@ TEST(PointGroups, AreTheSameForAnyNumberOfThreadsAndAnyInstructions) {
       for (const int threads : {1, 2, 3, 7})
         with_threads(threads, [&] {
           soft::PointGroups groups;
-          soft::group_points(c.points, c.view, c.soup.view(), c.light, grouping, groups, level);
+          soft::group_points(seen_from(c.points, c.view), c.soup.view(), c.light, grouping, groups, level);
           EXPECT_EQ(numbers_of(groups), expected) << simd_level_name(level);
         });
     }

@@ -81,7 +81,8 @@ TEST(SoftError, IsToldForEachPixel) {
     const SoftMask exact = traced(c, SoftShadowConfig{});
     SoftShadowTracer tracer;
     SoftMask mask;
-    ASSERT_TRUE(tracer.trace(c.points, c.normals, c.view, c.soup.view(), c.light, {.error_255 = 4}, mask));
+    ASSERT_TRUE(
+        tracer.trace(seen_from(c.points, c.view), c.normals, c.soup.view(), c.light, {.error_255 = 4}, mask));
     ASSERT_EQ(tracer.errors().size(), c.size());
     const double unit = white_of(c, exact) / 255;
     struct Bucket {
@@ -121,8 +122,9 @@ TEST(SoftError, IsNothingWhereAllIsExact) {
   const SoftCase c = below_leaves(24);
   SoftShadowTracer tracer;
   SoftMask mask;
-  ASSERT_TRUE(tracer.trace(c.points, c.normals, c.view, c.soup.view(), c.light, {.error_255 = 2}, mask));
-  ASSERT_TRUE(tracer.trace(c.points, c.normals, c.view, c.soup.view(), c.light, {}, mask));
+  ASSERT_TRUE(
+      tracer.trace(seen_from(c.points, c.view), c.normals, c.soup.view(), c.light, {.error_255 = 2}, mask));
+  ASSERT_TRUE(tracer.trace(seen_from(c.points, c.view), c.normals, c.soup.view(), c.light, {}, mask));
   EXPECT_TRUE(tracer.errors().empty());
 }
 
@@ -148,8 +150,8 @@ TEST(SoftError, DoesNotDependOnTheFrameBefore) {
   SoftShadowTracer tracer;
   SoftMask mask;
   for (const SoftCase* of : {&other, &c})
-    ASSERT_TRUE(
-        tracer.trace(of->points, of->normals, of->view, of->soup.view(), of->light, {.error_255 = 2}, mask));
+    ASSERT_TRUE(tracer.trace(seen_from(of->points, of->view), of->normals, of->soup.view(), of->light,
+                             {.error_255 = 2}, mask));
   EXPECT_EQ(mask.irradiance, expected.irradiance);
 }
 
@@ -160,8 +162,8 @@ TEST(SoftError, LeavesWhatIsNotSampledExact) {
   for (const double asked : {8.0, 0.5}) {
     SoftShadowTracer tracer;
     SoftMask mask;
-    ASSERT_TRUE(
-        tracer.trace(c.points, c.normals, c.view, c.soup.view(), c.light, {.error_255 = asked}, mask));
+    ASSERT_TRUE(tracer.trace(seen_from(c.points, c.view), c.normals, c.soup.view(), c.light,
+                             {.error_255 = asked}, mask));
     std::size_t sampled = 0;
     for (std::size_t i = 0; i < c.size(); ++i) {
       if (tracer.classes()[i] == static_cast<std::uint8_t>(SoftClass::sampled)) {
@@ -177,7 +179,7 @@ TEST(SoftError, LeavesWhatIsNotSampledExact) {
     }
     const SoftStats& stats = tracer.stats();
     SoftShadowTracer whole;
-    ASSERT_TRUE(whole.trace(c.points, c.normals, c.view, c.soup.view(), c.light, {}, mask));
+    ASSERT_TRUE(whole.trace(seen_from(c.points, c.view), c.normals, c.soup.view(), c.light, {}, mask));
     EXPECT_EQ(stats.points_lit + stats.points_dark + stats.points_penumbra,
               whole.stats().points_lit + whole.stats().points_dark + whole.stats().points_penumbra)
         << "each point counts once";
@@ -190,18 +192,19 @@ TEST(SoftError, StopsWhenItIsTold) {
   stop.request();
   SoftShadowTracer tracer;
   SoftMask mask;
-  EXPECT_FALSE(
-      tracer.trace(c.points, c.normals, c.view, c.soup.view(), c.light, {.error_255 = 1}, mask, &stop));
+  EXPECT_FALSE(tracer.trace(seen_from(c.points, c.view), c.normals, c.soup.view(), c.light, {.error_255 = 1},
+                            mask, &stop));
 }
 
 TEST(SampledBlocks, FindEachPixelAndNoOther) {
   const SoftCase c = below_leaves(21);
+  const VisiblePoints at = seen_from(c.points, c.view);
   const soft::LightFrame light = soft::light_frame(c.light);
   SoftMask out;
   std::vector<std::uint8_t> classes;
   const SoftShadowConfig config;
   const TriangleView triangles = c.soup.view();
-  const soft::SoftFrame frame{c.points, c.normals, c.view, triangles, light, config, out, classes, nullptr};
+  const soft::SoftFrame frame{at, c.normals, triangles, light, config, out, classes, nullptr};
   std::vector<std::uint32_t> pixels;
   for (std::uint32_t i = 0; i < c.size(); ++i)
     if (c.points.triangles[i] != no_triangle && i % 5 != 2) pixels.push_back(i);
@@ -250,12 +253,13 @@ TEST(LightMeans, OfLitPixelsAreLitBesideAnyGaps) {
   c.soup.quad({-8, 0, -8}, {0, 0, 16}, {16, 0, 0});
   c.view = pinhole({0, 5, 0.1}, {0, 0, 0}, 0.9, width, width);
   c.points = view_samples(c.soup.view(), c.view, width, width);
+  const VisiblePoints at = seen_from(c.points, c.view);
   const soft::LightFrame light = soft::light_frame(c.light);
   const SoftShadowConfig config;
   const TriangleView triangles = c.soup.view();
   SoftMask mask;
   std::vector<std::uint8_t> classes;
-  const soft::SoftFrame frame{c.points, c.normals, c.view, triangles, light, config, mask, classes, nullptr};
+  const soft::SoftFrame frame{at, c.normals, triangles, light, config, mask, classes, nullptr};
   Random random(97);
   for (int round = 0; round < 20; ++round) {
     std::vector<std::uint32_t> pixels;

@@ -27,7 +27,7 @@ struct Given {
 
 inline soft::PointGroups grouped(const GroupCase& c, SoftGrouping grouping = SoftGrouping::neighbourhood) {
   soft::PointGroups groups;
-  soft::group_points(c.points, c.view, c.soup.view(), c.light, grouping, groups);
+  soft::group_points(seen_from(c.points, c.view), c.soup.view(), c.light, grouping, groups);
   return groups;
 }
 
@@ -130,7 +130,7 @@ private:
     const std::uint32_t pixel = groups_.pixels_of(group)[k];
     const Line line{c_.points.positions[pixel], q, c_.points.triangles[pixel]};
     if (!c_.light.at_infinity && !(glm::dot(line.p - c_.light.centre, c_.light.normal) > 0)) return {};
-    const int side = soft::seen_side(c_.soup.view(), line.receiver, c_.view);
+    const int side = points::eye_side(points::corners_of(c_.soup.view(), line.receiver).v, c_.view);
     if (reference::height_sign(points::corners_of(c_.soup.view(), line.receiver), line.q) != side) return {};
     return line;
   }

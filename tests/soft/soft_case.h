@@ -37,7 +37,8 @@ struct SoftCase {
 inline SoftMask traced(const SoftCase& c, const SoftShadowConfig& config, SoftStats* stats = nullptr) {
   SoftShadowTracer tracer;
   SoftMask mask;
-  EXPECT_TRUE(tracer.trace(c.points, c.normals, c.view, c.soup.view(), c.light, config, mask)) << c.name;
+  EXPECT_TRUE(tracer.trace(seen_from(c.points, c.view), c.normals, c.soup.view(), c.light, config, mask))
+      << c.name;
   EXPECT_EQ(mask.visible_fraction.size(), c.size()) << c.name;
   EXPECT_EQ(mask.irradiance.size(), c.size()) << c.name;
   mask.visible_fraction.resize(c.size()), mask.irradiance.resize(c.size());

@@ -56,7 +56,7 @@ inline SoftCase frame_case(const SceneFrame& frame, int width, int height, doubl
   SoftCase c;
   c.name = fmt::format("{} frame {} light {} of {} %", frame.scene, frame.frame, light, percent);
   LoadedFrame loaded = load_frame(frame, width, height);
-  compute_shading_normals(loaded.points, loaded.geometry.normals, loaded.view, loaded.soup.view(), c.normals);
+  compute_shading_normals(loaded.points, loaded.geometry.normals, loaded.soup.view(), c.normals);
   c.soup = std::move(loaded.soup), c.view = loaded.view, c.points = std::move(loaded.points);
   const WorldLight placed = evaluate_lights(loaded.scene, 0, loaded.time_s).at(light);
   const glm::dvec3 low = c.soup.low(), high = c.soup.high();

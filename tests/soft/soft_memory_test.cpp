@@ -29,7 +29,7 @@ struct Traced {
 Traced trace_with(SoftShadowTracer& tracer, const SoftCase& c, const SoftShadowConfig& config, int threads) {
   Traced out;
   with_threads(threads, [&] {
-    out.done = tracer.trace(c.points, c.normals, c.view, c.soup.view(), c.light, config, out.mask);
+    out.done = tracer.trace(seen_from(c.points, c.view), c.normals, c.soup.view(), c.light, config, out.mask);
   });
   out.stats = tracer.stats();
   out.refusal = tracer.refusal();

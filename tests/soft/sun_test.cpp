@@ -157,7 +157,7 @@ TEST(Sun, OfNoSizeCastsHardShadows) {
   const SoftMask soft = traced(c, SoftShadowConfig{});
   ShadowTracer tracer;
   ShadowMask hard;
-  ASSERT_TRUE(tracer.trace_shadow_mask(c.points, c.view, c.soup.view(),
+  ASSERT_TRUE(tracer.trace_shadow_mask(seen_from(c.points, c.view), c.soup.view(),
                                        {.directional = true, .to_light = vec3(0.4f, 1, 0.3f)}, {}, hard));
   std::size_t partly = 0, lit = 0;
   for (std::size_t i = 0; i < c.size(); ++i) {

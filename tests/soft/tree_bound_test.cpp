@@ -53,9 +53,9 @@ TEST(TreeBound, HoldsWithinAQueryAndTheRestIsClipped) {
 std::size_t by_tree_after_a_drop(const SoftCase& c, const SoftShadowConfig& config) {
   SoftShadowTracer tracer;
   SoftMask mask;
-  EXPECT_TRUE(tracer.trace(c.points, c.normals, c.view, c.soup.view(), c.light, config, mask));
+  EXPECT_TRUE(tracer.trace(seen_from(c.points, c.view), c.normals, c.soup.view(), c.light, config, mask));
   soft::PointGroups groups;
-  soft::group_points(c.points, c.view, c.soup.view(), c.light, config.grouping, groups);
+  soft::group_points(seen_from(c.points, c.view), c.soup.view(), c.light, config.grouping, groups);
   std::size_t count = 0;
   for (const soft::PointGroup& group : groups.groups) {
     bool dropped = false;

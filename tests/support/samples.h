@@ -42,6 +42,12 @@ VisiblePoints points_on_triangles(const Soup& soup, Random& random, int count);
 /// edge goes on to meet another triangle: every one of them is a close call.
 VisiblePoints points_behind_edges(const Soup& soup, const ShadowLight& light, Random& random, int count);
 
+/// The same samples, on the sides of their triangles that `view` sees.
+inline VisiblePoints seen_from(VisiblePoints points, const ViewRays& view) {
+  points.seen_from = view;
+  return points;
+}
+
 /// A view for which every point is active that can be: the eye is at the light.
 ViewRays view_from_light(const ShadowLight& light);
 

@@ -187,10 +187,10 @@ inline std::vector<glm::vec3> spread(const TintMask& mask, std::size_t pixels) {
 inline TintMask traced(const Glass& glass, const VisiblePoints& points, const ViewRays& view,
                        const ShadowLight& light, ShadowMask* lit = nullptr, TintStats* stats = nullptr) {
   ShadowMask mask;
-  ShadowTracer().trace_shadow_mask(points, view, glass.soup.view(), light, {}, mask);
+  ShadowTracer().trace_shadow_mask(seen_from(points, view), glass.soup.view(), light, {}, mask);
   TintMask out;
   TintTracer tracer;
-  tracer.trace(points, view, glass.soup.view(), glass.surfaces(), light, mask, {}, out);
+  tracer.trace(seen_from(points, view), glass.soup.view(), glass.surfaces(), light, mask, {}, out);
   if (lit != nullptr) *lit = mask;
   if (stats != nullptr) *stats = tracer.stats();
   return out;

@@ -278,10 +278,12 @@ TEST(HardTint, StopsWhenAsked) {
   StopFlag stop;
   TintTracer tracer;
   TintMask out;
-  EXPECT_TRUE(tracer.trace(points, above, glass.soup.view(), glass.surfaces(), light, lit, {}, out, &stop));
+  EXPECT_TRUE(tracer.trace(seen_from(points, above), glass.soup.view(), glass.surfaces(), light, lit, {}, out,
+                           &stop));
   EXPECT_GT(tracer.stats().tests, 0u);
   stop.request();
-  EXPECT_FALSE(tracer.trace(points, above, glass.soup.view(), glass.surfaces(), light, lit, {}, out, &stop));
+  EXPECT_FALSE(tracer.trace(seen_from(points, above), glass.soup.view(), glass.surfaces(), light, lit, {},
+                            out, &stop));
   EXPECT_EQ(tracer.stats().tests, 0u);
 }
 

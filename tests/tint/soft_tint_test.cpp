@@ -42,10 +42,10 @@ SoftAnswers traced(const Glass& glass, const VisiblePoints& points, const AreaLi
   SoftShadowConfig soft;
   soft.simd = config.simd;
   SoftShadowTracer shadows;
-  EXPECT_TRUE(shadows.trace(points, {}, view, glass.soup.view(), light, soft, a.mask));
+  EXPECT_TRUE(shadows.trace(seen_from(points, view), {}, glass.soup.view(), light, soft, a.mask));
   TintTracer tracer;
-  EXPECT_TRUE(
-      tracer.trace(points, {}, view, glass.soup.view(), glass.surfaces(), light, a.mask, config, a.tint));
+  EXPECT_TRUE(tracer.trace(seen_from(points, view), {}, glass.soup.view(), glass.surfaces(), light, a.mask,
+                           config, a.tint));
   a.stats = tracer.stats();
   return a;
 }
@@ -266,8 +266,8 @@ TEST(SoftTint, AnEstimatedMaskIsNotNeeded) {
   TintTracer tracer;
   SoftMask rough = a.mask;
   for (float& irradiance : rough.irradiance) irradiance *= 0.7f;
-  ASSERT_TRUE(
-      tracer.trace(points, {}, above, glass.soup.view(), glass.surfaces(), ceiling, rough, config, own));
+  ASSERT_TRUE(tracer.trace(seen_from(points, above), {}, glass.soup.view(), glass.surfaces(), ceiling, rough,
+                           config, own));
   const std::vector<vec3> x = spread(own, points.triangles.size()),
                           y = spread(a.tint, points.triangles.size());
   for (std::size_t i = 0; i < x.size(); ++i)

@@ -56,7 +56,21 @@ void ReceiverMaker::take(const Fetched& triangle) {
   face_ = vec3(glm::normalize(world));
 }
 
+bool ReceiverMaker::make_free(const dvec3& position, const vec3& normal, Receiver& out) {
+  const float square = glm::dot(normal, normal);
+  if (!(square > 0.25f && square < 4.0f) || !std::isfinite(position.x + position.y + position.z))
+    return false;
+  out.position = out.local = position;
+  out.normal = normal;
+  out.face = glm::normalize(normal);
+  out.owner = {TriangleOwner::deforming, 0};
+  out.v = out.w = 0;
+  out.front = true;
+  return true;
+}
+
 bool ReceiverMaker::make(std::uint32_t triangle, const dvec3& position, const vec3& normal, Receiver& out) {
+  if (triangle == free_point) return make_free(position, normal, out);
   if (triangle >= objects_.owners.size()) return false;
   if (triangle != triangle_) {
     if (next_ == fetched_count_ || fetched_[next_].id != triangle) fetch({&triangle, 1});

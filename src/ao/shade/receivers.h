@@ -35,7 +35,8 @@ public:
   /// and here the waits for many overlap instead of following each other.
   void fetch(std::span<const std::uint32_t> triangles);
 
-  /// False where there is none: no triangle, no area, no normal, or a point that is not finite.
+  /// False where there is none: no triangle, no area, no normal, or a point that is not finite. A free point
+  /// lies on a surface across its normal that hides nothing.
   bool make(std::uint32_t triangle, const glm::dvec3& position, const glm::vec3& normal, Receiver& out);
 
 private:
@@ -50,6 +51,7 @@ private:
   std::span<Fetched> fetched() { return {fetched_, fetched_count_}; }
   void look_up(Fetched& triangle) const;
   void take(const Fetched& triangle);
+  static bool make_free(const glm::dvec3& position, const glm::vec3& normal, Receiver& out);
 
   const FrameGeometry& geometry_;
   const SceneObjects& objects_;

@@ -79,8 +79,7 @@ Expected<void> BorrowedLight::add(const SampleStages& stages, const SamplePictur
   const LitSamples& centres = stages.centres.lit;
   choose(stages, samples);
   points::take_points(at.points, own_slots_, own_.points);
-  compute_shading_normals(own_.points, frame.input.geometry.normals, frame.input.view, frame.triangles(),
-                          own_.normals);
+  compute_shading_normals(own_.points, frame.input.geometry.normals, frame.triangles(), own_.normals);
   if (auto lit = stages.lighter.light(frame, LightKinds::areas, own_); !lit) return lit;
   for (std::size_t i = 0; i < frame.lights.size(); ++i) {
     if (!frame.lights[i].area) continue;

@@ -31,7 +31,7 @@ bool blocks_exactly(const OpenTriangle& t, const dvec3& point, std::uint32_t own
   if (((t.open >> 3) & 1u) == 0) return true;
   double threshold = 0;
   if (contact == ContactRule::triangle_ids) {
-    const double tau_own = points::rounding_tolerance(points::corners_of(triangles, own).v);
+    const double tau_own = points::own_tolerance(triangles, own, point);
     threshold = points::contact_threshold(c.v, points::rounding_tolerance(c.v), tau_own);
   }
   return math::plane_excess(c.v[0], c.v[1], c.v[2], point, t.side, threshold) > 0;
@@ -42,7 +42,7 @@ bool decide(const TrianglePlanes& planes, const dvec3& point, std::uint32_t own,
   const bool use_ids = contact == ContactRule::triangle_ids;
   if (use_ids && planes.triangle == own) return false;
   ++stats.float_unknown;
-  const double tau_own = use_ids ? points::rounding_tolerance(points::corners_of(triangles, own).v) : 0.0;
+  const double tau_own = use_ids ? points::own_tolerance(triangles, own, point) : 0.0;
   const dvec3 p = point - source.origin;
   const double size = std::sqrt(glm::dot(p, p));
   std::uint32_t open = 0;

@@ -12,11 +12,10 @@ Faces faces_beyond(const TriangleView& triangles, std::uint32_t id, int side, co
                                                                                     : Faces::away;
 }
 
-SeesPast::SeesPast(const TriangleView& triangles, std::uint32_t id, const ViewRays& view,
-                   const RaySource& source)
+SeesPast::SeesPast(const TriangleView& triangles, std::uint32_t id, int side, const RaySource& source)
     : source_(source),
       corners_(points::corners_of(triangles, id)),
-      eye_side_(points::eye_side(corners_.v, view)),
+      side_(side),
       light_side_(light_side(corners_.v, source)) {
   const double tau = points::rounding_tolerance(corners_.v);
   threshold_ = points::contact_threshold(corners_.v, tau, tau);
@@ -24,7 +23,7 @@ SeesPast::SeesPast(const TriangleView& triangles, std::uint32_t id, const ViewRa
 
 bool SeesPast::from(const glm::dvec3& point) const {
   const glm::vec3(&v)[3] = corners_.v;
-  if (math::plane_excess(v[0], v[1], v[2], point, eye_side_, threshold_) <= 0) return false;
+  if (math::plane_excess(v[0], v[1], v[2], point, side_, threshold_) <= 0) return false;
   if (light_side_ == 0) return true;
   for (int k = 0; k < 3; ++k) {
     const glm::vec3 &a = v[k], &b = v[(k + 1) % 3];

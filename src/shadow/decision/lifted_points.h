@@ -14,20 +14,20 @@ namespace tenebra::shadow {
 /// Which points of a triangle are active (hard_shadows.h).
 enum class Faces : std::uint8_t {
   away = 0,    ///< none
-  light = 1,   ///< all: light and eye are on one side
+  light = 1,   ///< all: the light is on their side
   beyond = 2,  ///< those that SeesPast says
 };
 
-/// Of a triangle that light and eye are on different sides of, or that is edge-on to the light: beyond, if it
-/// is smooth and the light is before the plane at one of its vertices; else away.
-/// `side`: the eye's, or 0.
+/// Of points on `side` (or 0) of a triangle that the light is not on that side of: beyond, if the triangle is
+/// smooth and the light is before the plane at one of its vertices; else away.
 Faces faces_beyond(const TriangleView& triangles, std::uint32_t id, int side, const RaySource& source);
 
 /// A triangle that the light is beyond, and which of its points see past it. Exact.
 class SeesPast {
 public:
-  SeesPast(const TriangleView& triangles, std::uint32_t id, const ViewRays& view, const RaySource& source);
-  /// Whether `point` is off the triangle's plane, on the eye's side by more than the contact rule's
+  /// `side`: that its points are on.
+  SeesPast(const TriangleView& triangles, std::uint32_t id, int side, const RaySource& source);
+  /// Whether `point` is off the triangle's plane, on its side by more than the contact rule's
   /// threshold, and the way from there to the light does not meet the triangle (closed).
   bool from(const glm::dvec3& point) const;
 
@@ -35,7 +35,7 @@ private:
   const RaySource& source_;
   points::Corners corners_;
   double threshold_;
-  int eye_side_, light_side_;
+  int side_, light_side_;
 };
 
 }  // namespace tenebra::shadow

@@ -196,7 +196,7 @@ RaySource ray_source(const ShadowLight& light) {
   return source;
 }
 
-void build_triangle_set(const TriangleView& triangles, const ViewRays& view, const RaySource& source,
+void build_triangle_set(const TriangleView& triangles, const RaySource& source,
                         const HardShadowConfig& config, TriangleSet& out) {
   const std::size_t count = triangles.triangles.size();
   const bool use_tau = config.contact == ContactRule::triangle_ids;
@@ -216,11 +216,13 @@ void build_triangle_set(const TriangleView& triangles, const ViewRays& view, con
       const int side = light_side(c.v, source);
       const double tau = use_tau ? points::rounding_tolerance(c.v) : 0.0;
       out.tau[id] = round_up(tau);
-      const int eye = points::eye_side(c.v, view);
-      Faces faces = side != 0 && eye == -side ? Faces::light : Faces::away;
-      if (use_tau && faces == Faces::away)
-        faces = faces_beyond(triangles, static_cast<std::uint32_t>(id), eye, source);
-      out.facing[id] = static_cast<std::uint8_t>(faces);
+      const auto faces_from = [&](int own) {
+        if (side == -own) return static_cast<unsigned>(Faces::light);
+        return use_tau ? static_cast<unsigned>(
+                             faces_beyond(triangles, static_cast<std::uint32_t>(id), own, source))
+                       : 0u;
+      };
+      out.facing[id] = static_cast<std::uint8_t>(faces_from(1) | faces_from(-1) << 2);
       if (!triangles.casts_shadow.empty() && triangles.casts_shadow[id] == 0) continue;
       degenerate += side == 0;
       if (side == 0 || (config.cull_front && side < 0)) continue;

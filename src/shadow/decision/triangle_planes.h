@@ -56,7 +56,8 @@ struct TriangleSet {
   std::vector<TriangleBounds> bounds;
   std::vector<float>
       extent;  ///< about the solid angle, or the area across a directional light: choice of blockers
-  std::vector<std::uint8_t> facing;  ///< one per triangle id: Faces (lifted_points.h)
+  std::vector<std::uint8_t> facing;  ///< one per triangle id: Faces (lifted_points.h) of points in front of
+                                     ///< it and, shifted by two bits, of those behind
   std::vector<float> tau;            ///< one per triangle id: rounding tolerance, rounded up
   std::uint64_t degenerate = 0;      ///< left out for zero area or for being edge-on
   std::uint64_t casting = 0;         ///< triangles that were to cast
@@ -70,8 +71,8 @@ int light_side(const glm::vec3 corners[3], const RaySource& source);
 TrianglePlanes planes_of(const glm::vec3 corners[3], std::uint32_t id, int side, const RaySource& source,
                          double tau);
 
-/// Fills `out` for one light and view. Order of `planes` is the order of ids.
-void build_triangle_set(const TriangleView& triangles, const ViewRays& view, const RaySource& source,
+/// Fills `out` for one light. Order of `planes` is the order of ids.
+void build_triangle_set(const TriangleView& triangles, const RaySource& source,
                         const HardShadowConfig& config, TriangleSet& out);
 
 }  // namespace tenebra::shadow

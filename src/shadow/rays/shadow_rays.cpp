@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "parallel/parallel.h"
+#include "points/sample_sides.h"
 #include "shadow/decision/lifted_points.h"
 #include "shadow/rays/direction_keys.h"
 
@@ -129,7 +131,7 @@ Reach reach_of_ball(const dvec3& centre, double radius, const ShadowLight& light
   return all ? Reach::all : Reach::some;
 }
 
-void generate_shadow_rays(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
+void generate_shadow_rays(const VisiblePoints& points, const TriangleView& triangles,
                           const ShadowLight& light, const RaySource& source, const TriangleSet& set,
                           RayKeys& scratch, ShadowRays& out, std::vector<std::uint32_t>& at_light) {
   const Tiles tiles = tiles_of(points);
@@ -143,30 +145,40 @@ void generate_shadow_rays(const VisiblePoints& points, const ViewRays& view, con
   std::vector<float> tau(tile_count, 0.0f);
   std::vector<std::vector<std::uint32_t>> met(tile_count);
   scratch.counts.assign(tile_count, 0);
-  const auto reached = [&](std::uint32_t pixel) {
+  const auto reached = [&](std::uint32_t pixel, points::SideFinder& sides) {
     const std::uint32_t id = points.triangles[pixel];
-    if (id >= set.facing.size() || static_cast<Faces>(set.facing[id]) == Faces::away) return false;
+    if (id == free_point) return in_reach(points.positions[pixel] - source.origin, light);
+    if (id >= set.facing.size() || set.facing[id] == 0) return false;
+    const int side = sides.at(pixel);
+    const auto faces = static_cast<Faces>(side == 0 ? 0 : set.facing[id] >> (side < 0 ? 2 : 0) & 3);
+    if (faces == Faces::away) return false;
     const dvec3& p = points.positions[pixel];
-    if (static_cast<Faces>(set.facing[id]) == Faces::beyond && !SeesPast(triangles, id, view, source).from(p))
-      return false;
+    if (faces == Faces::beyond && !SeesPast(triangles, id, side, source).from(p)) return false;
     return in_reach(p - source.origin, light);
+  };
+  const auto tau_of = [&](std::uint32_t pixel) {
+    const std::uint32_t id = points.triangles[pixel];
+    if (id != free_point) return set.tau[id];
+    const double tau = points::own_tolerance(triangles, id, points.positions[pixel]);
+    return std::nextafter(static_cast<float>(tau), std::numeric_limits<float>::infinity());
   };
   parallel::parallel_tasks(static_cast<int>(tile_count), [&](int t) {
     const std::uint32_t left = order[t] % tiles.columns * tile, top = order[t] / tiles.columns * tile;
     std::uint32_t count = 0;
+    points::SideFinder sides(points, triangles);
     std::uint32_t* const slots = &out.pixels[static_cast<std::size_t>(t) * slot];
     for (const Offset offset : z_curve) {
       const std::uint32_t x = left + offset.x, y = top + offset.y;
       if (x >= static_cast<std::uint32_t>(points.width) || y >= static_cast<std::uint32_t>(points.height))
         continue;
       const std::uint32_t pixel = y * static_cast<std::uint32_t>(points.width) + x;
-      if (!reached(pixel)) continue;
+      if (!reached(pixel, sides)) continue;
       if (!source.directional && points.positions[pixel] == source.origin) {
         met[t].push_back(pixel);
         continue;
       }
       slots[count++] = pixel;
-      tau[t] = std::max(tau[t], set.tau[points.triangles[pixel]]);
+      tau[t] = std::max(tau[t], tau_of(pixel));
     }
     scratch.counts[t] = count;
   });

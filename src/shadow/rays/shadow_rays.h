@@ -33,11 +33,11 @@ struct RayKeys {
   std::vector<std::uint32_t> counts;
 };
 
-/// Compaction: pixels that see a triangle which faces both eye and light, or that see past it, within the
-/// light's cone and range, in screen order along a Z curve (nearby pixels stay near). Pixels with the sample
-/// at the light itself get no ray and are listed in `at_light`: nothing lies between. `set`: of `triangles`,
-/// light and view.
-void generate_shadow_rays(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
+/// Compaction: pixels on the light's side of their triangle, or that see past it, within the light's
+/// cone and range, in screen order along a Z curve (nearby pixels stay near). Pixels with the sample
+/// at the light itself get no ray and are listed in `at_light`: nothing lies between. `set`: of `triangles`
+/// and light.
+void generate_shadow_rays(const VisiblePoints& points, const TriangleView& triangles,
                           const ShadowLight& light, const RaySource& source, const TriangleSet& set,
                           RayKeys& scratch, ShadowRays& out, std::vector<std::uint32_t>& at_light);
 

@@ -131,8 +131,7 @@ public:
         triangles_(triangles),
         config_(config),
         by_ids_(config.contact == ContactRule::triangle_ids),
-        tau_own_(by_ids_ ? points::rounding_tolerance(points::corners_of(triangles, sample.triangle).v)
-                         : 0.0) {}
+        tau_own_(by_ids_ ? points::own_tolerance(triangles, sample.triangle, sample.point) : 0.0) {}
 
   bool casts(std::uint32_t id) const {
     return (!by_ids_ || id != sample_.triangle) &&
@@ -211,20 +210,21 @@ void take_first(const std::vector<std::uint32_t>& blockers, const Sample& sample
 }
 
 /// Whether light may come from where `light` is: the sample is active, but for cone and range.
-bool faces(const Sample& sample, const ViewRays& view, const TriangleView& triangles, const RaySource& source,
+bool faces(const Sample& sample, const TriangleView& triangles, const RaySource& source,
            ContactRule contact) {
+  if (sample.triangle == free_point) return true;
   const Corners own = points::corners_of(triangles, sample.triangle);
-  const int side = light_side(own.v, source), eye = points::eye_side(own.v, view);
-  if (side != 0 && eye == -side) return true;
+  const int side = light_side(own.v, source);
+  if (side != 0 && sample.side == -side) return true;
   return contact == ContactRule::triangle_ids &&
-         faces_beyond(triangles, sample.triangle, eye, source) == Faces::beyond &&
-         SeesPast(triangles, sample.triangle, view, source).from(sample.point);
+         faces_beyond(triangles, sample.triangle, sample.side, source) == Faces::beyond &&
+         SeesPast(triangles, sample.triangle, sample.side, source).from(sample.point);
 }
 
-Way way_to(const ShadowLight& light, const Sample& sample, const ViewRays& view,
-           const TriangleView& triangles, ContactRule contact) {
+Way way_to(const ShadowLight& light, const Sample& sample, const TriangleView& triangles,
+           ContactRule contact) {
   Way way{.source = ray_source(light)};
-  if (!faces(sample, view, triangles, way.source, contact)) {
+  if (!faces(sample, triangles, way.source, contact)) {
     way.line.sight = LightSight::faces_away;
   } else if (!in_reach(sample.point - way.source.origin, light)) {
     way.line.sight = LightSight::out_of_reach;
@@ -237,15 +237,14 @@ Way way_to(const ShadowLight& light, const Sample& sample, const ViewRays& view,
 
 }  // namespace
 
-std::vector<Sightline> find_sightlines(const Sample& sample, const ViewRays& view,
-                                       const TriangleView& triangles, std::span<const ShadowLight> lights,
-                                       const HardShadowConfig& config) {
+std::vector<Sightline> find_sightlines(const Sample& sample, const TriangleView& triangles,
+                                       std::span<const ShadowLight> lights, const HardShadowConfig& config) {
   const parallel::FloatEnvironment ieee;
   std::vector<Way> ways;
   Box all;
   Bundle bundle;
   for (const ShadowLight& light : lights) {
-    ways.push_back(way_to(light, sample, view, triangles, config.contact));
+    ways.push_back(way_to(light, sample, triangles, config.contact));
     if (!ways.back().open) continue;
     all.add(ways.back().box);
     bundle.add(sample.point, ways.back().source);

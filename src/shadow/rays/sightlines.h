@@ -12,16 +12,17 @@
 
 namespace tenebra::shadow {
 
-/// A visible point: a place in world space, taken as exact, on a triangle.
+/// A place in world space, taken as exact, on a triangle.
 struct Sample {
   glm::dvec3 point{0.0};
   std::uint32_t triangle = no_triangle;
+  int side = 0;  ///< of the triangle: visible_side()
 };
 
 /// What a mask's value means: `lit` is 255, all others are 0.
 enum class LightSight : std::uint8_t {
   lit,
-  faces_away,    ///< light and eye are not strictly on one side of the sample's triangle, or it has no area;
+  faces_away,    ///< the light is not strictly on the sample's side of its triangle, or that has no area;
                  ///< and where it was lifted off a smooth one, that triangle is in its way
   out_of_reach,  ///< beyond the light's range or outside of its cone
   blocked,
@@ -39,8 +40,7 @@ struct Sightline {
 /// The way from `sample` to each of `lights`, by the contract of ShadowTracer::trace_shadow_mask: a sightline
 /// is lit exactly where the mask has 255. Looks at every triangle once, on all threads; the answer does not
 /// depend on their number.
-std::vector<Sightline> find_sightlines(const Sample& sample, const ViewRays& view,
-                                       const TriangleView& triangles, std::span<const ShadowLight> lights,
-                                       const HardShadowConfig& config);
+std::vector<Sightline> find_sightlines(const Sample& sample, const TriangleView& triangles,
+                                       std::span<const ShadowLight> lights, const HardShadowConfig& config);
 
 }  // namespace tenebra::shadow

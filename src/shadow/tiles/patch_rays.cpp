@@ -159,6 +159,10 @@ void PatchRays::find_facing(const points::PointPatch& patch, std::vector<std::ui
     Facing found = kernels_.facing(block, facing_light_);
     for (std::uint32_t i = 0; i < 16; ++i) {
       const std::size_t number = b * 16 + i;
+      if (block.id[i] == free_point && number < patch.receiver_count) {
+        facing[number] = static_cast<std::uint8_t>(Faces::light);
+        continue;
+      }
       if (((found.open >> i) & 1u) != 0 && number < patch.receiver_count) {
         const int side = light_side(points::corners_of(triangles_, block.id[i]).v, source_);
         found.facing |= side == -block.side[i] ? 1u << i : 0u;
@@ -189,14 +193,16 @@ std::uint32_t PatchRays::lanes_beyond(std::uint32_t lanes, std::uint32_t tile) c
   if (lanes == 0) return 0;
   std::uint32_t past = 0;
   points::PositionFinder positions(points_, triangles_);
+  points::SideFinder sides(points_, triangles_);
   std::optional<SeesPast> triangle;
   std::uint32_t id = no_triangle;
+  int side = 0;
   for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
     const int lane = std::countr_zero(left);
     const std::size_t pixel = pixels_(tile, lane);
-    if (id != points_.triangles[pixel]) {
-      id = points_.triangles[pixel];
-      triangle.emplace(triangles_, id, tiles_.view, source_);
+    if (id != points_.triangles[pixel] || side != sides.at(pixel)) {
+      id = points_.triangles[pixel], side = sides.at(pixel);
+      triangle.emplace(triangles_, id, side, source_);
     }
     if (triangle->from(positions.at(pixel))) past |= 1u << lane;
   }

@@ -13,7 +13,7 @@ inline constexpr float shortest_ray = 1e-15f, longest_ray = 1e15f;
 
 /// Bits of sixteen triangles.
 struct Facing {
-  std::uint32_t facing = 0;  ///< the light is on the eye's side for sure
+  std::uint32_t facing = 0;  ///< the light is on the points' side for sure
   std::uint32_t open = 0;    ///< to be decided exactly
 };
 

@@ -13,16 +13,11 @@ namespace {
 
 constexpr std::uint64_t wide = 16;  // boxes, triangles or points that one test looks at
 
-bool same_eye(const ViewRays& a, const ViewRays& b) {
-  return a.orthographic == b.orthographic && (a.orthographic ? a.d0 == b.d0 : a.eye == b.eye);
-}
-
 }  // namespace
 
-const points::PointTiles& TileTracer::tiles_of(const VisiblePoints& points, const ViewRays& view,
-                                               const TriangleView& triangles) {
-  if (!points.tiles.empty() && same_eye(points.tiles->view, view)) return *points.tiles;
-  points::make_point_tiles(points, view, triangles, own_tiles_);
+const points::PointTiles& TileTracer::tiles_of(const VisiblePoints& points, const TriangleView& triangles) {
+  if (!points.tiles.empty()) return *points.tiles;
+  points::make_point_tiles(points, triangles, own_tiles_);
   return own_tiles_;
 }
 
@@ -63,12 +58,12 @@ void TileTracer::descend(const Descent& descent, SimdLevel simd, TraceStats& sta
   stats.degenerate_triangles = clusters_->without_area() + static_cast<std::uint64_t>(different);
 }
 
-bool TileTracer::trace(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
-                       const ShadowLight& light, const HardShadowConfig& config, ShadowMask& mask,
-                       TraceStats& stats, FrameTimings& timings, const StopFlag* stop) {
+bool TileTracer::trace(const VisiblePoints& points, const TriangleView& triangles, const ShadowLight& light,
+                       const HardShadowConfig& config, ShadowMask& mask, TraceStats& stats,
+                       FrameTimings& timings, const StopFlag* stop) {
   if (triangles.positions.size() > most_vertices) return false;
   base::Stopwatch watch;
-  const points::PointTiles& tiles = tiles_of(points, view, triangles);
+  const points::PointTiles& tiles = tiles_of(points, triangles);
   forest_.distant = distant_face(light, tiles);
   if (light.directional && !forest_.distant) return false;
   const RaySource source =

@@ -20,9 +20,9 @@ public:
   /// Fills `mask`, `stats` and `timings` as ShadowTracer does. False, with nothing of use in them, where the
   /// method does not apply: points that are less than 1e-15 from the light or 1e15 and more apart, and more
   /// than most_vertices; or if `stop` was requested.
-  bool trace(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
-             const ShadowLight& light, const HardShadowConfig& config, ShadowMask& mask, TraceStats& stats,
-             FrameTimings& timings, const StopFlag* stop);
+  bool trace(const VisiblePoints& points, const TriangleView& triangles, const ShadowLight& light,
+             const HardShadowConfig& config, ShadowMask& mask, TraceStats& stats, FrameTimings& timings,
+             const StopFlag* stop);
 
   void share_triangles(TileTracer& other) { clusters_ = other.clusters_; }
   /// What trace() does first with the triangles; nothing for more than most_vertices. False: stopped.
@@ -35,8 +35,7 @@ public:
   void spread_tests(int width, int height, std::vector<float>& out) const;
 
 private:
-  const points::PointTiles& tiles_of(const VisiblePoints& points, const ViewRays& view,
-                                     const TriangleView& triangles);
+  const points::PointTiles& tiles_of(const VisiblePoints& points, const TriangleView& triangles);
   void order_roots(std::size_t roots);
   void descend(const Descent& descent, SimdLevel simd, TraceStats& stats);
 

@@ -14,7 +14,6 @@ namespace tenebra::soft {
 /// What all groups of a frame are made from.
 struct Grouping {
   const VisiblePoints& points;
-  const ViewRays& view;
   const TriangleView& triangles;
   const LightShape light;
   const PointKernels kernels;
@@ -37,8 +36,12 @@ struct GroupPart {
 /// Pixels by triangle, each triangle's in row order: those of triangle k end at ends[k].
 struct PixelsByTriangle {
   std::vector<std::uint32_t> pixels, ends;
-  std::vector<std::uint8_t> active;  ///< room for a set of one triangle's
+  std::vector<std::uint8_t> active;     ///< room for a set of one triangle's
+  std::vector<std::uint32_t> one_side;  ///< room for one triangle's, by sides
 };
+
+/// Adds the receivers of the free points among a group's: those with the least and the largest tolerance.
+void append_free_receivers(const Grouping& grouping, const PointGroup& group, std::vector<Receiver>& out);
 
 /// A set of 64 points, eight per byte.
 inline std::array<std::uint8_t, 8> bytes_of(std::uint64_t set) {

@@ -1,9 +1,12 @@
 #include "soft/groups/point_groups.h"
 
+#include <algorithm>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "parallel/parallel.h"
+#include "points/triangle_corners.h"
 #include "soft/groups/group_parts.h"
 #include "soft/groups/group_tree.h"
 
@@ -31,6 +34,17 @@ void join(std::span<GroupPart> parts, std::vector<GroupKey>& keys, PointGroups& 
 
 }  // namespace
 
+void append_free_receivers(const Grouping& g, const PointGroup& group, std::vector<Receiver>& out) {
+  Receiver least = receiver_of(lit_free_points(), 0, group.cell, g.light), most = least;
+  least.tau = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t pixel : g.out.pixels_of(group)) {
+    if (g.points.triangles[pixel] != free_point) continue;
+    const double tau = points::own_tolerance(g.triangles, free_point, g.points.positions[pixel]);
+    least.tau = std::min(least.tau, tau), most.tau = std::max(most.tau, tau);
+  }
+  out.push_back(least), out.push_back(most);
+}
+
 struct PointGrouper::State {
   std::vector<GroupPart> parts;
   std::vector<GroupKey> keys;
@@ -42,14 +56,14 @@ PointGrouper::PointGrouper(PointGrouper&&) noexcept = default;
 PointGrouper& PointGrouper::operator=(PointGrouper&&) noexcept = default;
 PointGrouper::~PointGrouper() = default;
 
-void PointGrouper::group(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
-                         const AreaLight& light, SoftGrouping grouping, PointGroups& out, SimdLevel simd) {
+void PointGrouper::group(const VisiblePoints& points, const TriangleView& triangles, const AreaLight& light,
+                         SoftGrouping grouping, PointGroups& out, SimdLevel simd) {
   State& s = *state_;
   const parallel::FloatEnvironment ieee;
   out.width = points.width;
   out.receivers.clear();
   out.pixels.resize(points.triangles.size());
-  const Grouping g{points, view, triangles, LightShape(light), point_kernels(simd), out};
+  const Grouping g{points, triangles, LightShape(light), point_kernels(simd), out};
   if (grouping == SoftGrouping::triangle) {
     if (s.parts.empty()) s.parts.resize(1);
     group_by_triangle(g, s.by_triangle, s.parts[0]);
@@ -59,9 +73,9 @@ void PointGrouper::group(const VisiblePoints& points, const ViewRays& view, cons
   }
 }
 
-void group_points(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
-                  const AreaLight& light, SoftGrouping grouping, PointGroups& out, SimdLevel simd) {
-  PointGrouper().group(points, view, triangles, light, grouping, out, simd);
+void group_points(const VisiblePoints& points, const TriangleView& triangles, const AreaLight& light,
+                  SoftGrouping grouping, PointGroups& out, SimdLevel simd) {
+  PointGrouper().group(points, triangles, light, grouping, out, simd);
 }
 
 }  // namespace tenebra::soft

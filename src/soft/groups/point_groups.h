@@ -42,7 +42,8 @@ struct PointGroups {
   std::vector<std::uint32_t>
       pixels;                       ///< in the groups' ranges every active pixel once, between them anything;
                                     ///< in a neighbourhood along a Z curve: any range lies together
-  std::vector<Receiver> receivers;  ///< group after group; each triangle once for each group, ascending
+  std::vector<Receiver> receivers;  ///< group after group; each triangle once for each group and
+                                    ///< side, ascending
 
   std::span<const std::uint32_t> pixels_of(const PointGroup& group) const {
     return {pixels.data() + group.first, group.count};
@@ -52,8 +53,8 @@ struct PointGroups {
   }
 };
 
-/// Groups the active points: those on a triangle that is not seen edge-on, in front of the light's plane, and
-/// with a part of the light on the seen side of their triangle's plane. Conservative: where double leaves
+/// Groups the active points: those on one side of their triangle, in front of the light's plane, and with a
+/// part of the light on that side of the triangle's plane. Conservative: where double leaves
 /// either in doubt, the point is kept. The groups depend neither on threads nor on the instruction set.
 /// Buffers are kept from call to call.
 class PointGrouper {
@@ -63,17 +64,15 @@ public:
   PointGrouper& operator=(PointGrouper&&) noexcept;
   ~PointGrouper();
 
-  void group(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
-             const AreaLight& light, SoftGrouping grouping, PointGroups& out,
-             SimdLevel simd = SimdLevel::automatic);
+  void group(const VisiblePoints& points, const TriangleView& triangles, const AreaLight& light,
+             SoftGrouping grouping, PointGroups& out, SimdLevel simd = SimdLevel::automatic);
 
 private:
   struct State;
   std::unique_ptr<State> state_;
 };
 /// The same, once.
-void group_points(const VisiblePoints& points, const ViewRays& view, const TriangleView& triangles,
-                  const AreaLight& light, SoftGrouping grouping, PointGroups& out,
-                  SimdLevel simd = SimdLevel::automatic);
+void group_points(const VisiblePoints& points, const TriangleView& triangles, const AreaLight& light,
+                  SoftGrouping grouping, PointGroups& out, SimdLevel simd = SimdLevel::automatic);
 
 }  // namespace tenebra::soft

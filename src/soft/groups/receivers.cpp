@@ -19,9 +19,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The light sinks below the triangle's plane, or nearly so: finds whether points lifted off the triangle may
 /// see some of what lies there.
-void see_lifted(const TriangleView& triangles, const ViewRays& view, const LightShape& light,
-                LitTriangle& lit) {
-  const points::SmoothSurface smooth = points::smooth_surface(triangles, lit.receiver.triangle, view);
+void see_lifted(const TriangleView& triangles, const LightShape& light, LitTriangle& lit) {
+  const points::SmoothSurface smooth =
+      points::smooth_surface(triangles, lit.receiver.triangle, lit.receiver.side);
   if (!smooth.lifts) return;
   const points::Corners c = points::corners_of(triangles, lit.receiver.triangle);
   lit.receiver.lifted = lit.light_above;
@@ -37,16 +37,11 @@ void see_lifted(const TriangleView& triangles, const ViewRays& view, const Light
 
 }  // namespace
 
-int seen_side(const TriangleView& triangles, std::uint32_t id, const ViewRays& view) {
-  return points::eye_side(points::corners_of(triangles, id).v, view);
-}
-
-LitTriangle lit_triangle(const TriangleView& triangles, std::uint32_t id, const ViewRays& view,
-                         const LightShape& light) {
+LitTriangle lit_triangle(const TriangleView& triangles, std::uint32_t id, int side, const LightShape& light) {
   const points::Corners c = points::corners_of(triangles, id);
   LitTriangle lit;
   lit.receiver.triangle = id;
-  lit.receiver.side = points::eye_side(c.v, view);
+  lit.receiver.side = side;
   lit.receiver.tau = points::rounding_tolerance(c.v);
   if (lit.receiver.side == 0) return lit;
   const dvec3 a(c.v[0]), e1 = dvec3(c.v[1]) - a, e2 = dvec3(c.v[2]) - a;
@@ -65,8 +60,16 @@ LitTriangle lit_triangle(const TriangleView& triangles, std::uint32_t id, const 
   }
   if (!triangles.normals.empty()) {
     const double margin = 0x1p-40 * (light.reach + math::l1_norm(light.origin) + math::l1_norm(a));
-    if (!(lit.light_height > light.weight * lit.level + margin)) see_lifted(triangles, view, light, lit);
+    if (!(lit.light_height > light.weight * lit.level + margin)) see_lifted(triangles, light, lit);
   }
+  return lit;
+}
+
+LitTriangle lit_free_points() {
+  LitTriangle lit;
+  lit.receiver.triangle = free_point;
+  lit.light_above = true;
+  lit.light_height = infinity;
   return lit;
 }
 

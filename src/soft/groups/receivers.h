@@ -11,10 +11,10 @@
 
 namespace tenebra::soft {
 
-/// A triangle on which points of a group lie, the side of it that the view sees (1: in front, counter-
-/// clockwise; -1: behind), and the half-space of it that no line from its points in the group to the light
-/// enters: a triangle with m.(v - light's centre) <= limit for its vertices blocks none of them. No such
-/// half-space if it is lifted, and then it may block them itself.
+/// A triangle on which points of a group lie (or free_point), the side of it that they are on (1: in front,
+/// counter- clockwise; -1: behind), and the half-space of it that no line from its points in the group to the
+/// light enters: a triangle with m.(v - light's centre) <= limit for its vertices blocks none of them. No
+/// such half-space if it is lifted, and then it may block them itself.
 struct Receiver {
   std::uint32_t triangle = no_triangle;
   std::int32_t side = 0;
@@ -24,23 +24,22 @@ struct Receiver {
   double limit = 0;
 };
 
-/// How a triangle lies relative to a light, whichever of its points are seen.
+/// How a triangle lies relative to a light, for points on one side of it.
 struct LitTriangle {
   Receiver receiver;         ///< but for the limit
-  bool light_above = false;  ///< a part of the light may be on the seen side of the plane or, lifted, of one
+  bool light_above = false;  ///< a part of the light may be on that side of the plane or, lifted, of one
                              ///< across a vertex's normal
   double level = 0;          ///< m.(v - light's centre) of the plane
   double light_height = 0;   ///< m.(v - light's centre) of the light's lowest vertex; for a sun m.v
 };
-LitTriangle lit_triangle(const TriangleView& triangles, std::uint32_t id, const ViewRays& view,
-                         const LightShape& light);
+LitTriangle lit_triangle(const TriangleView& triangles, std::uint32_t id, int side, const LightShape& light);
+
+/// Of free points, which any part of the light may reach; their tolerances are not set.
+LitTriangle lit_free_points();
 
 /// The receiver of points of a cell whose least m.(p - light's centre) is `lowest_point`.
 Receiver receiver_of(const LitTriangle& triangle, double lowest_point, const Cell& cell,
                      const LightShape& light);
-
-/// Side of the triangle from which the view sees it, exact: 1, -1, or 0 if it is seen edge-on.
-int seen_side(const TriangleView& triangles, std::uint32_t id, const ViewRays& view);
 
 /// Contact tolerances (tau_R) of the receivers of a group.
 struct ContactRange {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "parallel/parallel.h"
+#include "points/sample_sides.h"
 #include "soft/groups/group_parts.h"
 
 namespace tenebra::soft {
@@ -12,12 +13,15 @@ namespace {
 constexpr std::uint32_t tile = 8;  // side in pixels
 static_assert(tile * tile == largest_neighbourhood);
 
-// A cache of data about triangles, by the id's last bits.
+// A cache of data about triangles and the sides of their points, by the id's last bits.
 class KnownTriangles {
 public:
-  const LitTriangle& operator()(const Grouping& g, std::uint32_t id) {
+  /// That of a point.
+  const LitTriangle& operator()(const Grouping& g, points::SideFinder& sides, std::uint32_t id,
+                                std::uint32_t pixel) {
     LitTriangle& lit = known_[id % known_.size()];
-    if (id != lit.receiver.triangle) lit = lit_triangle(g.triangles, id, g.view, g.light);
+    if (id != lit.receiver.triangle || (sides.differ() && sides.at(pixel) != lit.receiver.side))
+      lit = lit_triangle(g.triangles, id, sides.at(pixel), g.light);
     return lit;
   }
 
@@ -28,7 +32,8 @@ private:
 // A square of the picture: point 8 y + x is its pixel (x, y).
 class Tile {
 public:
-  Tile(const Grouping& grouping, GroupPart& part) : g_(grouping), part_(part), lanes_(part.lanes) {
+  Tile(const Grouping& grouping, GroupPart& part)
+      : g_(grouping), part_(part), sides_(grouping.points, grouping.triangles), lanes_(part.lanes) {
     lanes_.resize(largest_neighbourhood);
     for (std::uint32_t i = 0; i < largest_neighbourhood; ++i) {
       lanes_.column[i] = static_cast<float>(i % tile);
@@ -49,6 +54,7 @@ private:
 
   void load(std::uint32_t left, std::uint32_t top);
   std::uint64_t find_receivers();
+  std::uint64_t on_side(std::uint64_t points, int side);
   void append_split(std::uint64_t set);
   void append_group(std::uint64_t set, const math::Box<double>& box);
   std::uint32_t pixel(std::uint32_t k) const { return first_ + k / tile * width() + k % tile; }
@@ -56,7 +62,9 @@ private:
 
   const Grouping& g_;
   GroupPart& part_;
+  points::SideFinder sides_;
   KnownTriangles known_;
+  const LitTriangle free_ = lit_free_points();
   PointLanes& lanes_;
   std::uint32_t first_ = 0;  // its first pixel
   std::array<std::uint32_t, largest_neighbourhood> ids_{};
@@ -82,16 +90,31 @@ void Tile::load(std::uint32_t left, std::uint32_t top) {
   }
 }
 
+// Those of `points` that are on this side of their triangle.
+std::uint64_t Tile::on_side(std::uint64_t points, int side) {
+  std::uint64_t here = 0;
+  for (; points != 0; points &= points - 1) {
+    const auto k = static_cast<std::uint32_t>(std::countr_zero(points));
+    if (sides_.at(pixel(k)) == side) here |= std::uint64_t{1} << k;
+  }
+  return here;
+}
+
 // Fills seen_; returns the active points.
 std::uint64_t Tile::find_receivers() {
   seen_count_ = 0;
   std::uint64_t active = 0;
   for (std::uint64_t rest = g_.kernels.in_front(lanes_, g_.light, 0); rest != 0;) {
     const std::uint32_t id = ids_[static_cast<std::size_t>(std::countr_zero(rest))];
-    const std::uint64_t here = rest & g_.kernels.equal(ids_.data(), id);
+    std::uint64_t here = rest & g_.kernels.equal(ids_.data(), id);
+    if (id >= g_.triangles.triangles.size() && id != free_point) {
+      rest &= ~here;
+      continue;
+    }
+    const auto first = static_cast<std::uint32_t>(std::countr_zero(here));
+    const LitTriangle& triangle = id == free_point ? free_ : known_(g_, sides_, id, pixel(first));
+    if (sides_.differ() && id != free_point) here = on_side(here, triangle.receiver.side);
     rest &= ~here;
-    if (id >= g_.triangles.triangles.size()) continue;
-    const LitTriangle& triangle = known_(g_, id);
     if (!triangle.light_above) continue;
     active |= here;
     std::size_t place = seen_count_++;
@@ -153,6 +176,10 @@ void Tile::append_group(std::uint64_t set, const math::Box<double>& box) {
   for (std::size_t i = 0; i < seen_count_; ++i) {
     const Seen& seen = seen_[i];
     if ((seen.points & set) == 0) continue;
+    if (seen.triangle.receiver.triangle == free_point) {
+      append_free_receivers(g_, group, part_.receivers);
+      continue;
+    }
     const double lowest =
         g_.kernels.lowest(lanes_, bytes_of(seen.points & set), seen.triangle.receiver.m, g_.light);
     part_.receivers.push_back(receiver_of(seen.triangle, lowest, group.cell, g_.light));

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "points/sample_sides.h"
 #include "soft/groups/group_parts.h"
 
 namespace tenebra::soft {
@@ -48,10 +49,26 @@ void append_triangle(const Grouping& g, std::span<const std::uint32_t> pixels, c
   group.low = box.low, group.high = box.high;
   group.cell = g.kernels.fitted_cell(lanes, set, box, g.light);
   group.first_receiver = static_cast<std::uint32_t>(part.receivers.size());
-  group.receiver_count = 1;
-  const double lowest = g.kernels.lowest(lanes, set, triangle.receiver.m, g.light);
-  part.receivers.push_back(receiver_of(triangle, lowest, group.cell, g.light));
+  if (triangle.receiver.triangle == free_point) {
+    append_free_receivers(g, group, part.receivers);
+  } else {
+    const double lowest = g.kernels.lowest(lanes, set, triangle.receiver.m, g.light);
+    part.receivers.push_back(receiver_of(triangle, lowest, group.cell, g.light));
+  }
+  group.receiver_count = static_cast<std::uint32_t>(part.receivers.size()) - group.first_receiver;
   part.groups.push_back(group);
+}
+
+/// Free points, as many to a group as to a neighbourhood.
+void append_free(const Grouping& g, PixelsByTriangle& by, GroupPart& part) {
+  by.one_side.clear();
+  for (std::size_t i = 0; i < g.points.triangles.size(); ++i)
+    if (g.points.triangles[i] == free_point) by.one_side.push_back(static_cast<std::uint32_t>(i));
+  for (std::span<const std::uint32_t> rest = by.one_side; !rest.empty();) {
+    const std::size_t count = std::min<std::size_t>(rest.size(), largest_neighbourhood);
+    append_triangle(g, rest.first(count), lit_free_points(), by.active, part);
+    rest = rest.subspan(count);
+  }
 }
 
 }  // namespace
@@ -64,9 +81,21 @@ void group_by_triangle(const Grouping& g, PixelsByTriangle& by, GroupPart& part)
     const std::span<const std::uint32_t> pixels(by.pixels.data() + first, by.ends[id] - first);
     first = by.ends[id];
     if (pixels.empty()) continue;
-    const LitTriangle triangle = lit_triangle(g.triangles, id, g.view, g.light);
-    if (triangle.light_above) append_triangle(g, pixels, triangle, by.active, part);
+    points::SideFinder sides(g.points, g.triangles);
+    by.one_side.assign(pixels.begin(), pixels.end());
+    for (std::span<std::uint32_t> rest = by.one_side; !rest.empty();) {
+      const int side = sides.at(rest.front());
+      const auto other = sides.differ()
+                             ? std::stable_partition(rest.begin(), rest.end(),
+                                                     [&](std::uint32_t p) { return sides.at(p) == side; })
+                             : rest.end();
+      const auto count = static_cast<std::size_t>(other - rest.begin());
+      const LitTriangle triangle = lit_triangle(g.triangles, id, side, g.light);
+      if (triangle.light_above) append_triangle(g, rest.first(count), triangle, by.active, part);
+      rest = rest.subspan(count);
+    }
   }
+  append_free(g, by, part);
 }
 
 }  // namespace tenebra::soft

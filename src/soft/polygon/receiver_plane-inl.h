@@ -43,19 +43,18 @@ struct ReceiverPlane {
   std::uint32_t id = no_triangle;
   double tau = 0;
   glm::dvec3 horizon{0.0};  ///< line on the light's plane, positive above
-  glm::dvec3 face{0.0};     ///< unit normal on the seen side; 0: no area
+  glm::dvec3 face{0.0};     ///< unit normal on the points' side; 0: no area
   LightLine<float> line;    ///< the horizon, scaled
   bool cuts_light = true;   ///< part of the light is not above it
   double level = 0;         ///< face.p of points on it
 };
 
-inline ReceiverPlane receiver_plane(const LightFrame& light, const ViewRays& view,
-                                    const TriangleView& triangles, std::uint32_t id) {
+inline ReceiverPlane receiver_plane(const LightFrame& light, const TriangleView& triangles, std::uint32_t id,
+                                    int side) {
   const points::Corners c = points::corners_of(triangles, id);
   const glm::dvec3 a(c.v[0]);
   const glm::dvec3 n = glm::cross(glm::dvec3(c.v[1]) - a, glm::dvec3(c.v[2]) - a);
   const double length = std::sqrt(glm::dot(n, n));
-  const int side = points::eye_side(c.v, view);
   ReceiverPlane plane;
   plane.id = id;
   plane.tau = points::rounding_tolerance(c.v);
@@ -63,6 +62,18 @@ inline ReceiverPlane receiver_plane(const LightFrame& light, const ViewRays& vie
   plane.horizon = static_cast<double>(side) * line_of_plane(light, n, light.way_from(a));
   plane.face = static_cast<double>(side) / length * n;
   plane.level = glm::dot(plane.face, a);
+  return plane;
+}
+
+/// The plane of a free point: across `normal`, or with a horizon that is below all of the light.
+inline ReceiverPlane free_plane(const LightFrame& light, const TriangleView& triangles, const glm::dvec3& at,
+                                const glm::dvec3& normal, bool sees_half) {
+  ReceiverPlane plane;
+  plane.id = free_point;
+  plane.tau = points::own_tolerance(triangles, free_point, at);
+  plane.horizon = sees_half ? line_of_plane(light, normal, light.way_from(at)) : glm::dvec3(0, 0, 1);
+  plane.face = normal;
+  plane.level = glm::dot(normal, at);
   return plane;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "parallel/parallel.h"
+#include "points/sample_sides.h"
 
 namespace tenebra::soft {
 
@@ -36,31 +37,6 @@ bool alike(const SampledSurface& a, const SampledSurface& b, const glm::dvec3& d
          std::abs(glm::dot(d, glm::dvec3(b.face))) <= most;
 }
 
-/// Whether points are seen within three pixels of each other. Neighbours in a list of samples may not be.
-class NearInView {
-public:
-  explicit NearInView(const ViewRays& view) : eye_(view.eye), d0_(view.d0), orthographic_(view.orthographic) {
-    const glm::dvec3 dx(view.dx), dy(view.dy), normal = glm::cross(dx, dy);
-    const double pixel = 3 * std::max(glm::length(dx), glm::length(dy));
-    // A pixel's angle is largest where the picture's plane is nearest to the eye.
-    const double plane = orthographic_ ? 1 : std::abs(glm::dot(d0_, normal)) / glm::length(normal);
-    most_ = pixel * pixel / (plane * plane);
-  }
-  bool operator()(const glm::dvec3& a, const glm::dvec3& b) const {
-    if (orthographic_) {
-      const glm::dvec3 across = glm::cross(b - a, d0_);
-      return glm::dot(across, across) <= most_ * glm::dot(d0_, d0_);
-    }
-    const glm::dvec3 u = a - eye_, v = b - eye_, across = glm::cross(u, v);
-    return glm::dot(across, across) <= most_ * glm::dot(u, u) * glm::dot(v, v);
-  }
-
-private:
-  glm::dvec3 eye_, d0_;
-  bool orthographic_;
-  double most_ = 0;  ///< square of the angle (orthographic: of the distance)
-};
-
 /// Weights of 3x3: all four phases have a quarter.
 constexpr float weights[3] = {0.25f, 0.5f, 0.25f};
 
@@ -80,7 +56,7 @@ struct Around {
   }
 };
 
-Around around(const SoftFrame& frame, const NearInView& near, const SampledBlocks& blocks,
+Around around(const SoftFrame& frame, const points::SeenTogether& near, const SampledBlocks& blocks,
               std::uint32_t slot) {
   Around out;
   const std::uint32_t pixel = blocks.pixels[slot], width = static_cast<std::uint32_t>(blocks.width);
@@ -176,7 +152,7 @@ constexpr float trust = 0.25f;  ///< in the halves of nine pixels; the rest is i
 
 void find_means(const SoftFrame& frame, const SampledBlocks& blocks, const LightTally& tally,
                 LightMeans& out) {
-  const NearInView near_in_view(frame.view);
+  const points::SeenTogether near_in_view(frame.points.seen_from);
   find_own(blocks, tally, out.own);
   const std::vector<OwnAnswer>& own = out.own;
   std::vector<float>& smooth = out.smooth;

@@ -30,7 +30,7 @@ void LightTally::add(const SoftFrame& frame, const SampledBlocks& blocks,
         const glm::vec3 to = place - from.at;
         const float at_light = -glm::dot(axis, to), at_point = glm::dot(from.normal, to);
         const bool lit = mask[grid.pixel(k * phase_slots + i)] != 0;
-        if (!(at_light > 0) || !(lit || glm::dot(from.face, to) > 0)) continue;
+        if (!(at_light > 0) || !((lit && !from.sees_half) || glm::dot(from.face, to) > 0)) continue;
         const float square = glm::dot(to, to);
         const float weight =
             std::max(at_point, 0.0f) / square * (at_light / square) * glm::dot(from.at, from.at);

@@ -25,18 +25,21 @@ std::uint64_t z_order(std::uint32_t x, std::uint32_t y) {
   return key;
 }
 
-glm::vec3 face_of(const SoftFrame& frame, std::uint32_t triangle) {
-  const points::Corners c = points::corners_of(frame.triangles, triangle);
+glm::vec3 face_of(const SoftFrame& frame, std::uint32_t pixel) {
+  if (frame.points.triangles[pixel] == free_point) return glm::vec3(frame.free_normal(pixel));
+  const points::Corners c = points::corners_of(frame.triangles, frame.points.triangles[pixel]);
   const glm::dvec3 a(c.v[0]), across = glm::cross(glm::dvec3(c.v[1]) - a, glm::dvec3(c.v[2]) - a);
   const double length = glm::length(across);
-  return length > 0 ? glm::vec3(across * (points::eye_side(c.v, frame.view) / length)) : glm::vec3(0.0f);
+  return length > 0 ? glm::vec3(across * (visible_side(frame.points, frame.triangles, pixel) / length))
+                    : glm::vec3(0.0f);
 }
 
 SampledSurface surface_at(const SoftFrame& frame, std::uint32_t pixel) {
   SampledSurface out;
   const double size = glm::length(frame.light.ex);
   out.at = glm::vec3(frame.light.way_from(frame.points.positions[pixel]) / -size);
-  out.face = face_of(frame, frame.points.triangles[pixel]);
+  out.face = face_of(frame, pixel);
+  out.sees_half = frame.points.triangles[pixel] == free_point && frame.sees_half(pixel);
   out.normal = frame.normals.empty() ? out.face : frame.normals[pixel];
   return out;
 }
@@ -91,6 +94,8 @@ void take_phase(const SoftFrame& frame, const SampledBlocks& blocks, std::span<c
   out.width = grid.width(), out.height = grid.height();
   out.positions.resize(grid.pixels());
   out.triangles.assign(grid.pixels(), no_triangle);
+  out.sides.resize(frame.points.sides.empty() ? 0 : grid.pixels());
+  out.seen_from = frame.points.seen_from;
   parallel::parallel_ranges(chosen.size(), 64, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       const std::uint32_t* from = &blocks.pixels[chosen[k] * block_slots + phase * phase_slots];
@@ -99,10 +104,11 @@ void take_phase(const SoftFrame& frame, const SampledBlocks& blocks, std::span<c
         const std::size_t to = grid.pixel(k * phase_slots + i);
         out.positions[to] = frame.points.positions[from[i]];
         out.triangles[to] = frame.points.triangles[from[i]];
+        if (!frame.points.sides.empty()) out.sides[to] = frame.points.sides[from[i]];
       }
     }
   });
-  points::make_point_tiles(out, frame.view, frame.triangles, *out.tiles);
+  points::make_point_tiles(out, frame.triangles, *out.tiles);
 }
 
 }  // namespace tenebra::soft

@@ -23,6 +23,7 @@ struct SampledSurface {
   glm::vec3 at{0.0f};
   glm::vec3 normal{0.0f};  ///< shading; unit
   glm::vec3 face{0.0f};    ///< of the triangle, to the seen side; unit
+  bool sees_half = false;  ///< a free point to which nothing comes from behind `face`
 };
 
 /// A block has a slot for each pixel, those of a phase side by side, each phase row by row.

@@ -108,7 +108,7 @@ void SoftSampler::look(const SoftFrame& frame, const LightPlaces& places,
   for (std::uint32_t k = 0; k < more; ++k) {
     const glm::dvec2 at = sobol_place(from * phases + phase * more + k);
     const glm::vec3 place = before_plane(places.at(at.x, at.y), frame.light);
-    if (!p.tracer.trace_shadow_mask(p.points, frame.view, triangles_, light_at(places.light(), place),
+    if (!p.tracer.trace_shadow_mask(p.points, triangles_, light_at(places.light(), place),
                                     {.simd = frame.config.simd}, p.mask, frame.stop))
       return;
     p.rays += p.tracer.stats().rays;

@@ -50,7 +50,10 @@ struct ReceiverSight {
   void forget() { of_ = no_triangle; }
   void take_up(const SoftFrame& frame, std::uint32_t pixel) {
     const std::uint32_t receiver = frame.points.triangles[pixel];
-    if (receiver != of_) start_on(frame, receiver);
+    if (receiver == free_point) return start_on_free(frame, pixel);
+    const bool stored = !frame.points.sides.empty();
+    if (receiver != of_ || (stored && frame.points.sides[pixel] != side_))
+      start_on(frame, receiver, visible_side(frame.points, frame.triangles, pixel));
     if (!lifts_) return;
     const double height = glm::dot(plane.face, frame.points.positions[pixel]) - plane.level;
     if (const bool lifted = height > 2 * plane.tau; lifted != is_lifted_) set_lifted(frame, lifted);
@@ -60,14 +63,21 @@ struct ReceiverSight {
   }
 
 private:
-  HWY_NOINLINE void start_on(const SoftFrame& frame, std::uint32_t receiver) {
-    of_ = receiver;
-    plane = receiver_plane(frame.light, frame.view, frame.triangles, receiver);
+  HWY_NOINLINE void start_on(const SoftFrame& frame, std::uint32_t receiver, int side) {
+    of_ = receiver, side_ = side;
+    plane = receiver_plane(frame.light, frame.triangles, receiver, side);
     lifts_ = is_lifted_ = false;
     see_above(frame);
     lifts_ = plane.cuts_light && plane.face != glm::dvec3(0.0) &&
-             points::smooth_surface(frame.triangles, receiver, frame.view).lifts;
+             points::smooth_surface(frame.triangles, receiver, side).lifts;
     below_ = plane.horizon;
+  }
+  HWY_NOINLINE void start_on_free(const SoftFrame& frame, std::uint32_t pixel) {
+    of_ = free_point;
+    lifts_ = is_lifted_ = false;
+    plane = free_plane(frame.light, frame.triangles, frame.points.positions[pixel], frame.free_normal(pixel),
+                       frame.sees_half(pixel));
+    see_above(frame);
   }
   HWY_NOINLINE void set_lifted(const SoftFrame& frame, bool lifted) {
     is_lifted_ = lifted;
@@ -86,6 +96,7 @@ private:
 
   FragmentList<T> scratch_;
   std::uint32_t of_ = no_triangle;
+  int side_ = 0;
   bool lifts_ = false;      ///< points of it may be lifted, and the light sinks below its plane
   bool is_lifted_ = false;  ///< `plane` and `light` are for such points
   glm::dvec3 below_{0.0};   ///< the horizon of the others

@@ -16,12 +16,19 @@ namespace tenebra::soft {
 struct SoftFrame {
   const VisiblePoints& points;
   std::span<const glm::vec3> normals;  ///< of each pixel, or empty
-  const ViewRays& view;
   const TriangleView& triangles;
   const LightFrame& light;
   const SoftShadowConfig& config;
   SoftMask& out;
   std::span<std::uint8_t> classes;
+  /// Whether a free point sees the half of space before it, and which way that is.
+  bool sees_half(std::uint32_t pixel) const {
+    return !points.sides.empty() && points.sides[pixel] != 0 && !normals.empty();
+  }
+  glm::dvec3 free_normal(std::uint32_t pixel) const {
+    return sees_half(pixel) ? glm::dvec3(normals[pixel]) : -light.normal;
+  }
+
   const StopFlag* stop;  ///< looked at for each point that needs a solver of its own; may be null
 };
 

@@ -71,8 +71,7 @@ TEST(Figures, HardShadowsStateTheCastersThatTheScenesHave) {
     evaluate_hard_view(place.scene, place.frame, {16, 16}, view);
     ShadowTracer tracer;
     ShadowMask mask;
-    tracer.trace_shadow_mask(view.frame.points, view.frame.view, view.frame.triangles(), view.light, {},
-                             mask);
+    tracer.trace_shadow_mask(view.frame.points, view.frame.triangles(), view.light, {}, mask);
     EXPECT_EQ(counted(static_cast<double>(tracer.stats().triangles)), row[1]) << row[0];
   }
 }

@@ -29,8 +29,8 @@ protected:
     ASSERT_EQ(lights_.size(), 2u);
     EXPECT_NE(lights_[0].directional, lights_[1].directional);
     for (const ShadowLight& light : lights_) {
-      ShadowTracer().trace_shadow_mask(view_.frame.points, view_.frame.view, view_.frame.triangles(), light,
-                                       {}, masks_.emplace_back());
+      ShadowTracer().trace_shadow_mask(view_.frame.points, view_.frame.triangles(), light, {},
+                                       masks_.emplace_back());
       const auto lit = std::count(masks_.back().begin(), masks_.back().end(), 255);
       EXPECT_GT(lit, 1000) << "nothing to compare";
       EXPECT_LT(lit, static_cast<std::ptrdiff_t>(masks_.back().size()) - 1000);

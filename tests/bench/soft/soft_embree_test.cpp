@@ -34,7 +34,7 @@ struct FloorScene {
     frame.view = look_at({0, 3, 6}, {0, 0, 0}, {0, 1, 0}, 0.8f, 0.1f, width, height);
     const auto ids = nearest_triangles(frame.triangles(), frame.view, width, height);
     compute_visible_points(ids, width, height, frame.view, frame.triangles(), frame.points);
-    compute_shading_normals(frame.points, g.normals, frame.view, frame.triangles(), frame.normals);
+    compute_shading_normals(frame.points, g.normals, frame.triangles(), frame.normals);
     frame.diagonal_m = 20;
   }
 

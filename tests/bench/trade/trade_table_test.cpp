@@ -176,7 +176,7 @@ TEST(TradeShadowMap, ErrsAtEdgesWithABiasAndEverywhereWithoutOne) {
   compute_visible_points(ids, side, side, view.frame.view, view.frame.triangles(), view.frame.points);
   ShadowMask exact, mask;
   ShadowTracer tracer;
-  tracer.trace_shadow_mask(view.frame.points, view.frame.view, view.frame.triangles(), view.light, {}, exact);
+  tracer.trace_shadow_mask(view.frame.points, view.frame.triangles(), view.light, {}, exact);
   const auto shadowed = std::count(exact.begin(), exact.end(), 0),
              lit = std::count(exact.begin(), exact.end(), 255);
   ASSERT_GT(shadowed, 500);
@@ -213,8 +213,7 @@ TEST(TradeShadowMap, OfASunErrsAtEdgesAlone) {
   ASSERT_TRUE(raster->draw(view.frame.geometry, view.frame.view, side, side, ids, depth));
   compute_visible_points(ids, side, side, view.frame.view, view.frame.triangles(), view.frame.points);
   ShadowMask exact, mask;
-  ShadowTracer().trace_shadow_mask(view.frame.points, view.frame.view, view.frame.triangles(), view.light, {},
-                                   exact);
+  ShadowTracer().trace_shadow_mask(view.frame.points, view.frame.triangles(), view.light, {}, exact);
   const auto seen = std::count_if(ids.begin(), ids.end(), [](auto id) { return id != no_triangle; });
   const auto shadowed = seen - std::count(exact.begin(), exact.end(), 255);
   ASSERT_GT(shadowed, 500);
