@@ -48,7 +48,7 @@ public:
   const TraceStats& stats() const;  ///< of the last call
   /// The method that ran in the last call: HardShadowConfig::variant, or what took its place.
   Variant ran() const;
-  /// Of the last call: rays_ms, sort_ms, build_ms, traverse_ms, writeback_ms.
+  /// Times of the last call: rays_ms, sort_ms, build_ms, traverse_ms, writeback_ms.
   const FrameTimings& timings() const;
   /// After a call with count_pixel_nodes (else empty): how many node tests were made for each pixel, 0
   /// where there was no ray. A node's tests are divided equally among the rays below it, so that the sum is

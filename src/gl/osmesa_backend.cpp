@@ -11,7 +11,7 @@
 namespace tenebra::gl {
 namespace {
 
-// Of GL/osmesa.h, whose package need not be installed.
+// What GL/osmesa.h declares; its package need not be installed.
 using OSMesaContext = struct osmesa_context*;
 constexpr int osmesa_format = 0x22, osmesa_profile = 0x33, osmesa_core_profile = 0x34;
 constexpr int osmesa_major = 0x36, osmesa_minor = 0x37;

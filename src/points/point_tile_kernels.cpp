@@ -37,8 +37,8 @@ SIMD_INLINE Receivers8 alike(const Receiver& r, const PixelRays& rays) {
           broadcast8(glm::dot(r.normal, r.a - rays.eye))};
 }
 
-/// Of eight lanes from `first` on. Pixels side by side see few different triangles: each is put into all of
-/// its lanes at once. Lanes without a point get the first.
+/// The receivers of eight lanes from `first` on. Pixels side by side see few different triangles: each is put
+/// into all of its lanes at once. Lanes without a point get the first.
 SIMD_INLINE Receivers8 gathered(const Receiver* receivers, std::span<const ReceiverLanes> parts,
                                 const PixelRays& rays, int first) {
   Receivers8 all = alike(receivers[parts.front().receiver], rays);

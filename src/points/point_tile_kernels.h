@@ -34,12 +34,12 @@ struct PointTileKernels {
   bool (*see_whole)(const Receiver* receivers, std::span<const ReceiverLanes> parts, const PixelRays& rays,
                     glm::uvec2 at, const glm::vec3& base, PointTile& tile, int place,
                     PointSquare& square) = nullptr;
-  /// The same in float, for a tile all of whose pixels see one receiver from the eye of a perspective view.
-  /// Returns false, and writes nothing, where a point might not lie inside the triangle or floats do not
-  /// reach. `error` grows to what q may be off.
+  /// Makes points in float, for a tile all of whose pixels see one receiver from the eye of a perspective
+  /// view. Returns false, and writes nothing, where a point might not lie inside the triangle or floats do
+  /// not reach. `error` grows to what q may be off.
   bool (*see_plane)(const SeenPlane& plane, const RayRows& rows, const SquareEye& eye, glm::uvec2 at,
                     PointTile& tile, int place, PointSquare& square, PlaneError& error) = nullptr;
-  /// The same for a tile whose pixels see several receivers; `planes`: of `parts`.
+  /// Makes points in float for a tile whose pixels see several receivers; `planes`: of `parts`.
   bool (*see_planes)(const SeenPlane* const* planes, std::span<const ReceiverLanes> parts,
                      const RayRows& rows, const SquareEye& eye, glm::uvec2 at, PointTile& tile, int place,
                      PointSquare& square, PlaneError& error) = nullptr;

@@ -21,7 +21,7 @@ public:
                 static_cast<int>(std::max<std::size_t>(1, (count + 256 * columns - 1) / (256 * columns)))) {}
   int width() const { return static_cast<int>(16 * columns); }
   int height() const { return height_; }
-  /// Of the whole picture, places without a sample included.
+  /// The number of pixels of the whole picture, places without a sample included.
   std::size_t pixels() const { return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height_); }
   /// Where sample `i` stands.
   std::size_t pixel(std::size_t i) const {

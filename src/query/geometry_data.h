@@ -9,7 +9,7 @@
 
 namespace tenebra::query {
 
-/// Of vertices, points and lights: beyond it, products of coordinates leave the range of floats.
+/// The largest coordinate of vertices, points and lights: beyond it, products leave the range of floats.
 inline constexpr float largest_coordinate = 1e18f;
 
 struct GeometryData {

@@ -17,7 +17,7 @@ inline std::uint32_t triangle_of(const QueryPoints& points, std::size_t i) {
 }
 /// Whether some points lie on no triangle.
 bool some_free(const QueryPoints& points);
-/// Of any length; zero: none.
+/// The normal that was given, of any length; zero: none.
 inline glm::vec3 normal_of(const QueryPoints& points, std::size_t i) {
   return points.normals.empty() ? glm::vec3(0.0f) : points.normals[i];
 }

@@ -49,7 +49,7 @@ private:
 
 /// width * height values, row 0 at the top.
 void read_triangle_ids(const GBuffer& gbuffer, std::vector<std::uint32_t>& ids);
-/// The same of GBuffer::layer, if has_layer.
+/// The ids of GBuffer::layer, if has_layer.
 void read_layer_ids(const GBuffer& gbuffer, std::vector<std::uint32_t>& ids);
 void read_depth(const GBuffer& gbuffer, std::vector<float>& depth);  ///< 0 where no triangle is seen
 

@@ -31,8 +31,8 @@ enum class LightSight : std::uint8_t {
 struct Sightline {
   LightSight sight = LightSight::lit;
   std::uint32_t blockers = 0;  ///< triangles that block it; 0 but for `blocked`
-  /// Of these the one that is met first on the way from the sample, and the smallest id of those that are met
-  /// at once; exact.
+  /// The triangle, of these, that is met first on the way from the sample: the smallest id of those that are
+  /// met at once; exact.
   std::uint32_t first = no_triangle;
   glm::dvec3 met_at{0.0};  ///< where the way meets the plane of `first`, in double; for display
 };

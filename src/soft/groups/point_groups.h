@@ -71,7 +71,7 @@ private:
   struct State;
   std::unique_ptr<State> state_;
 };
-/// The same, once.
+/// Groups points once, without keeping anything.
 void group_points(const VisiblePoints& points, const TriangleView& triangles, const AreaLight& light,
                   SoftGrouping grouping, PointGroups& out, SimdLevel simd = SimdLevel::automatic);
 

@@ -26,8 +26,8 @@ struct LightMeans {
   std::vector<float> smooth;        ///< and its mean with its neighbours
   std::vector<float> smooth_apart;  ///< how far the mean's halves are apart; -1 where it lacks a neighbour
 };
-/// Of all slots with a pixel. Of a slot's neighbours those count that are seen next to it and lie on one
-/// surface with it. `square` is statistical: what no place has seen is not in it.
+/// Finds the means of all slots with a pixel. Of a slot's neighbours those count that are seen next to it and
+/// lie on one surface with it. `square` is statistical: what no place has seen is not in it.
 void find_means(const SoftFrame& frame, const SampledBlocks& blocks, const LightTally& tally,
                 LightMeans& out);
 

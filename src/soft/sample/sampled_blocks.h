@@ -37,7 +37,7 @@ struct SampledBlocks {
 
   std::uint32_t columns() const { return (static_cast<std::uint32_t>(width) + block_side - 1) / block_side; }
   std::size_t count() const { return places.size(); }
-  /// Of the pixel at (x, y), inside the picture or not; no_slot: it is not sampled.
+  /// The slot of the pixel at (x, y), inside the picture or not; no_slot: it is not sampled.
   std::uint32_t slot(int x, int y) const;
   std::uint32_t slot(std::uint32_t pixel) const {
     const auto columns_of_pixels = static_cast<std::uint32_t>(width);

@@ -56,7 +56,7 @@ private:
   bool look(const SoftFrame& frame, const LightPlaces& places, std::span<const std::uint32_t> chosen,
             std::uint32_t from, std::uint32_t to, SoftStats& stats);
 
-  /// Of one phase: they are looked at side by side.
+  /// What one phase needs of its own: phases are traced side by side.
   struct Phase {
     ShadowTracer tracer;  ///< all phases' share one tree over the triangles
     ShadowMask mask;
