@@ -7,7 +7,7 @@
 namespace tenebra::formats::gltf {
 namespace {
 
-constexpr std::size_t sets = 2;
+constexpr std::size_t joint_sets = 2;
 
 struct Set {
   std::vector<double> joints, weights;  ///< four for each vertex
@@ -37,7 +37,7 @@ Set read_set(Asset& asset, const tinygltf::Primitive& primitive, std::size_t set
 
 /// The weights of one vertex, from all sets.
 struct Vertex {
-  double weights[4 * sets] = {};
+  double weights[4 * joint_sets] = {};
 
   /// Makes the sum 1. Returns false where it was, within the rounding of stored floats.
   bool mend() {
