@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "options/scene_options.h"
 #include "render/renderer.h"
 #include "session/viewpoint.h"
 
