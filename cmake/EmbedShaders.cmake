@@ -1,7 +1,7 @@
 # tenebra_shaders: every file of shaders/ as text in one generated header, <embedded_shaders.h>:
 # namespace tenebra::shaders { inline constexpr std::string_view NAME_EXT = ...; }
 file(GLOB shader_files CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/*.vert ${CMAKE_SOURCE_DIR}/shaders/*.frag
-  ${CMAKE_SOURCE_DIR}/shaders/*.glsl)
+  ${CMAKE_SOURCE_DIR}/shaders/*.glsl ${CMAKE_SOURCE_DIR}/shaders/*.comp)
 set(shader_header ${CMAKE_BINARY_DIR}/shaders/embedded_shaders.h)
 set(text "#pragma once\n#include <string_view>\nnamespace tenebra::shaders {\n")
 foreach(file ${shader_files})

@@ -69,6 +69,16 @@ Expected<void> Buffer::upload(std::span<const std::byte> bytes) {
   return {};
 }
 
+Expected<void> Buffer::reserve(std::size_t bytes) {
+  if (bytes <= capacity_) return {};
+  glGetError();  // an older error is not ours
+  glNamedBufferData(name(), static_cast<GLsizeiptr>(bytes), nullptr, GL_DYNAMIC_COPY);
+  capacity_ = glGetError() == GL_NO_ERROR ? bytes : 0;
+  if (capacity_ == 0)
+    return base::fail(ErrorKind::device, "OpenGL: found no memory for a buffer of {} bytes", bytes);
+  return {};
+}
+
 void Buffer::update(std::size_t offset, std::span<const std::byte> bytes) {
   assert(offset + bytes.size() <= capacity_);
   glNamedBufferSubData(name(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes.size()),

@@ -46,6 +46,8 @@ public:
   static Buffer create();
   /// Replaces the contents; storage grows and is kept. Fails if there is no memory for it.
   Expected<void> upload(std::span<const std::byte> bytes);
+  /// Room for as many bytes, whose contents have no meaning. Fails if there is no memory for it.
+  Expected<void> reserve(std::size_t bytes);
   /// Replaces the bytes from `offset` on; the contents reach as far already.
   void update(std::size_t offset, std::span<const std::byte> bytes);
 
@@ -116,6 +118,8 @@ public:
   /// stage and the compiler's log.
   static Expected<Program> build(std::string_view name, std::vector<std::string_view> vertex,
                                  std::vector<std::string_view> fragment);
+  /// The same of a compute shader alone.
+  static Expected<Program> build_compute(std::string_view name, std::vector<std::string_view> pieces);
 };
 
 /// Waits until all drawing is done: the driver's threads then leave the cores to ours.

@@ -22,6 +22,10 @@ std::string one_line(std::string log) {
   return log;
 }
 
+const char* suffix_of(GLenum stage) {
+  return stage == GL_VERTEX_SHADER ? "vert" : stage == GL_FRAGMENT_SHADER ? "frag" : "comp";
+}
+
 Expected<Shader> compile(std::string_view program, GLenum stage, std::vector<std::string_view> pieces) {
   pieces.insert(pieces.begin(), "#version 450 core\n");
   std::vector<const GLchar*> texts;
@@ -39,8 +43,22 @@ Expected<Shader> compile(std::string_view program, GLenum stage, std::vector<std
   glGetShaderiv(shader.name(), GL_INFO_LOG_LENGTH, &length);
   std::string log(static_cast<std::size_t>(length), '\0');
   glGetShaderInfoLog(shader.name(), length, nullptr, log.data());
-  return base::fail(ErrorKind::device, "shader {}.{} does not compile: {}", program,
-                    stage == GL_VERTEX_SHADER ? "vert" : "frag", one_line(std::move(log)));
+  return base::fail(ErrorKind::device, "shader {}.{} does not compile: {}", program, suffix_of(stage),
+                    one_line(std::move(log)));
+}
+
+/// What is attached to `program` is let go of.
+Expected<Program> link(std::string_view name, Program program, std::initializer_list<const Shader*> shaders) {
+  for (const Shader* shader : shaders) glAttachShader(program.name(), shader->name());
+  glLinkProgram(program.name());
+  for (const Shader* shader : shaders) glDetachShader(program.name(), shader->name());
+  GLint linked = 0, length = 0;
+  glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);
+  if (linked) return program;
+  glGetProgramiv(program.name(), GL_INFO_LOG_LENGTH, &length);
+  std::string log(static_cast<std::size_t>(length), '\0');
+  glGetProgramInfoLog(program.name(), length, nullptr, log.data());
+  return base::fail(ErrorKind::device, "shaders of {} do not link: {}", name, one_line(std::move(log)));
 }
 
 }  // namespace
@@ -55,19 +73,13 @@ Expected<Program> Program::build(std::string_view name, std::vector<std::string_
   if (!vertex_shader) return tl::unexpected(std::move(vertex_shader.error()));
   auto fragment_shader = compile(name, GL_FRAGMENT_SHADER, std::move(fragment));
   if (!fragment_shader) return tl::unexpected(std::move(fragment_shader.error()));
-  Program program(glCreateProgram());
-  glAttachShader(program.name(), vertex_shader->name());
-  glAttachShader(program.name(), fragment_shader->name());
-  glLinkProgram(program.name());
-  glDetachShader(program.name(), vertex_shader->name());
-  glDetachShader(program.name(), fragment_shader->name());
-  GLint linked = 0, length = 0;
-  glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);
-  if (linked) return program;
-  glGetProgramiv(program.name(), GL_INFO_LOG_LENGTH, &length);
-  std::string log(static_cast<std::size_t>(length), '\0');
-  glGetProgramInfoLog(program.name(), length, nullptr, log.data());
-  return base::fail(ErrorKind::device, "shaders of {} do not link: {}", name, one_line(std::move(log)));
+  return link(name, Program(glCreateProgram()), {&*vertex_shader, &*fragment_shader});
+}
+
+Expected<Program> Program::build_compute(std::string_view name, std::vector<std::string_view> pieces) {
+  auto shader = compile(name, GL_COMPUTE_SHADER, std::move(pieces));
+  if (!shader) return tl::unexpected(std::move(shader.error()));
+  return link(name, Program(glCreateProgram()), {&*shader});
 }
 
 }  // namespace tenebra::gl
