@@ -12,6 +12,7 @@
 #include "raster/gbuffer.h"
 #include "raster/geometry_buffers.h"
 #include "render/antialias/pattern.h"
+#include "render/gl_shading.h"
 
 namespace tenebra::render {
 
@@ -69,14 +70,41 @@ Expected<FrameRaster> FrameRaster::create(gl::Context context) {
 }
 
 Expected<FrameRaster> FrameRaster::create(const RasterChoice& choice) {
-  if (choice.kind == RasterKind::cpu) return FrameRaster();
+  if (choice.kind == RasterKind::cpu && choice.shading == RasterKind::cpu) return FrameRaster();
   auto context = gl::Context::create(choice.context, choice.options);
-  if (choice.kind == RasterKind::gl) {
-    if (!context) return tl::unexpected(context.error());
-    return create(std::move(*context));
+  const bool hardware = context && !gl::is_software_renderer(context->description());
+  const auto wants = [&](RasterKind kind) {
+    return kind == RasterKind::gl || (kind == RasterKind::automatic && hardware);
+  };
+  const bool draws = wants(choice.kind), shades = wants(choice.shading);
+  if (!draws && !shades) return FrameRaster();
+  if (!context) return tl::unexpected(context.error());
+  FrameRaster result;
+  if (draws) {
+    auto made = create(std::move(*context));
+    if (!made) return made;
+    result = std::move(*made);
+  } else {
+    result.for_shading_.emplace(std::move(*context));
   }
-  if (!context || gl::is_software_renderer(context->description())) return FrameRaster();
-  return create(std::move(*context));
+  if (!shades) return result;
+  if (auto made = result.make_shading(choice.shading); !made) return tl::unexpected(made.error());
+  return result;
+}
+
+/// automatic: shaders that do not build leave the colours to the CPU.
+Expected<void> FrameRaster::make_shading(RasterKind kind) {
+  auto made = GlShading::create();
+  if (!made && kind == RasterKind::gl) return tl::unexpected(std::move(made.error()));
+  if (!made) return {};
+  shading_ = std::move(*made);
+  shades_by_gl_ = true;
+  return {};
+}
+
+std::unique_ptr<FrameShading> FrameRaster::take_shading() {
+  if (shading_) return std::move(shading_);
+  return std::make_unique<CpuShading>();
 }
 
 bool FrameRaster::is_gl() const {
@@ -85,7 +113,7 @@ bool FrameRaster::is_gl() const {
 
 const std::string& FrameRaster::gl_renderer() const {
   static const std::string none = "none";
-  return gl_ ? gl_->context.description() : none;
+  return gl_ ? gl_->context.description() : for_shading_ ? for_shading_->description() : none;
 }
 
 std::vector<std::string> FrameRaster::take_debug_messages() {

@@ -18,11 +18,14 @@
 
 namespace tenebra::render {
 
+class FrameShading;  // render/frame_shading.h
+
 enum class RasterKind { automatic, gl, cpu };
 
-/// How pictures are to be rasterised, and the OpenGL context for it.
+/// How pictures are to be rasterised and their colours made, and the OpenGL context for it.
 struct RasterChoice {
   RasterKind kind = RasterKind::automatic;
+  RasterKind shading = RasterKind::automatic;  ///< who makes the colours; gl: what OpenGL can (GlShading)
   gl::ContextChoice context;
   gl::ContextOptions options;
 };
@@ -32,8 +35,8 @@ struct RasterChoice {
 class FrameRaster {
 public:
   /// gl: by OpenGL. cpu: without any context. automatic: by OpenGL if there is a context and it draws by more
-  /// than software. Fails with a sentence if there is no context, it lacks OpenGL 4.5 core or a shader does
-  /// not build.
+  /// than software. The same for the colours. Fails with a sentence if there is no context, it lacks
+  /// OpenGL 4.5 core or a shader does not build.
   static Expected<FrameRaster> create(const RasterChoice& choice);
   /// By OpenGL in this context, even if it is software. An adopted one is left as found after each draw
   /// (gl/kept_state.h).
@@ -43,6 +46,9 @@ public:
   ~FrameRaster();
 
   bool is_gl() const;
+  /// Who makes the colours, as the choice had it; once, and to be destroyed before this object.
+  std::unique_ptr<FrameShading> take_shading();
+  bool shades_by_gl() const { return shades_by_gl_; }
   /// GL_RENDERER and GL_VERSION; "none" on the CPU.
   const std::string& gl_renderer() const;
   std::vector<std::string> take_debug_messages();
@@ -67,7 +73,11 @@ public:
 private:
   struct Gl;
   FrameRaster();
-  std::unique_ptr<Gl> gl_;  ///< null: on the CPU
+  Expected<void> make_shading(RasterKind kind);
+  std::unique_ptr<Gl> gl_;                   ///< null: on the CPU
+  std::optional<gl::Context> for_shading_;   ///< where the CPU rasterises and OpenGL makes the colours
+  std::unique_ptr<FrameShading> shading_{};  ///< null: taken, or by the CPU
+  bool shades_by_gl_ = false;
   Expected<void> draw_one_by_one(const FrameGeometry& geometry, const ViewRays& view,
                                  std::span<const glm::vec2> places, const Wish& wish,
                                  visibility::PlaceIds& out, const StopFlag* stop);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <tenebra/expected.h>
@@ -24,6 +25,7 @@ struct ShadingTask {
   std::span<const std::uint32_t> ids;  ///< of the picture's pixels
   /// Whether the colours of the pixels' centres are needed once more, linear: by the means, or copy_linear.
   bool keeps_linear = false;
+  bool linear_means = false;  ///< MeansTask::linear will be set
 };
 
 /// Pixels whose colour is the mean over several samples.
@@ -73,6 +75,9 @@ public:
   virtual Expected<void> add_samples(const shade::Samples& samples, const SampleShares& shares) = 0;
   /// Writes the means over the picture and, where wanted, over the linear colours of the centres.
   virtual Expected<void> finish_means(io::Image8& picture, io::ImageF& linear) = 0;
+
+  /// What the user should know of the last frame, one sentence each.
+  virtual std::vector<std::string> take_notes() { return {}; }
 };
 
 }  // namespace tenebra::render

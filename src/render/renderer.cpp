@@ -104,8 +104,10 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 
 Renderer Renderer::create(FrameRaster raster, const Scene& scene) {
+  auto shading = raster.take_shading();
   auto state = std::make_unique<State>(State{
       .scene = {without_keyed_vertices(scene), shade::SurfaceTable(scene), {}}, .raster = std::move(raster)});
+  state->shading = std::move(shading);
   state->scene.coordinates = surface_coordinates(state->scene.scene);
   return Renderer(std::move(state));
 }
@@ -192,6 +194,7 @@ Expected<void> Renderer::State::render(const FrameInput& given, const RenderSett
   result.timings.total_ms = watch.lap_ms();
 
   lighter.note_changed_groups(settings.soft, result.notes);
+  for (std::string& note : shading->take_notes()) result.notes.push_back(std::move(note));
   std::erase_if(result.notes, [&](const std::string& note) { return !said.insert(note).second; });
   return {};
 }
@@ -238,8 +241,8 @@ Expected<void> Renderer::State::begin_shading(const Frame& frame) {
                                  scene.environment ? &*scene.environment : nullptr};
   const shade::Display display{settings.exposure, settings.tone, scene.scene.transfer};
   const bool keeps_linear = settings.antialias > 1 || settings.linear || settings.linear_mean;
-  return shading->begin(
-      {subject, lighting, display, settings.width, settings.height, centres.seen.ids, keeps_linear});
+  return shading->begin({subject, lighting, display, settings.width, settings.height, centres.seen.ids,
+                         keeps_linear, settings.linear_mean});
 }
 
 Expected<void> Renderer::State::keep_linear(const RenderSettings& settings, FrameResult& result) const {

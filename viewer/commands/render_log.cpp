@@ -145,6 +145,7 @@ std::vector<render::LogSetting> describe_render(const RenderPlan& plan, const Re
       {"machine", base::machine_description()},
       {"renderer", raster.renderer},
       {"raster", raster.raster},
+      {"shading", raster.shading},
       {"threads", settings.threads == 0 ? fmt::format("{} (all cores)", thread_count())
                                         : fmt::format("{}", settings.threads)},
       {"simd", std::string(simd_level_name(simd))},

@@ -22,21 +22,26 @@ Expected<gl::ContextChoice> parse_context(const std::string& text) {
 
 }  // namespace
 
-std::array<AddedOption, 2> add_raster_options(CLI::App& command, render::RasterChoice& choice) {
+std::array<AddedOption, 3> add_raster_options(CLI::App& command, render::RasterChoice& choice) {
   return {add_value(command, "--raster", choice.kind, parse_raster,
                     "How the triangle that each pixel sees is found: by OpenGL,\n"
                     "or by the CPU, exactly and without OpenGL [auto: OpenGL on\n"
                     "a GPU, else the CPU]")
               .type_name("auto|gl|cpu"),
+          add_value(command, "--shading", choice.shading, parse_raster,
+                    "Who makes the colours of what is seen from light and\n"
+                    "shadows: OpenGL or the CPU [auto: OpenGL on a GPU, else the\n"
+                    "CPU, which also makes what OpenGL cannot yet]")
+              .type_name("auto|gl|cpu"),
           add_value(command, "--context", choice.context, parse_context,
-                    "Offscreen OpenGL for --raster gl; egl:N is device N of\n"
+                    "Offscreen OpenGL for the above; egl:N is device N of\n"
                     "tenebra info --gl [auto: a GPU by EGL, else software by EGL,\n"
                     "else OSMesa]")
               .type_name("auto|egl|egl:N|osmesa")};
 }
 
 RasterNames raster_names(const render::FrameRaster& raster) {
-  return {raster.is_gl() ? "gl" : "cpu", raster.gl_renderer()};
+  return {raster.is_gl() ? "gl" : "cpu", raster.shades_by_gl() ? "gl" : "cpu", raster.gl_renderer()};
 }
 
 }  // namespace tenebra::viewer

@@ -1,5 +1,5 @@
-// The options that choose how the triangle that each pixel sees is found. The commands render, view, verify
-// and trade share them.
+// The options that choose who finds the triangle that each pixel sees, and who makes the colours. The
+// commands render, view, verify and trade share them.
 #pragma once
 
 #include <array>
@@ -10,12 +10,13 @@
 
 namespace tenebra::viewer {
 
-/// Adds --raster and --context to `command`; they are read into `choice`, which must live as long.
-std::array<AddedOption, 2> add_raster_options(CLI::App& command, render::RasterChoice& choice);
+/// Adds --raster, --shading and --context to `command`; they are read into `choice`, which must live as long.
+std::array<AddedOption, 3> add_raster_options(CLI::App& command, render::RasterChoice& choice);
 
 /// What drew, for logs.
 struct RasterNames {
   std::string raster;    ///< "gl" or "cpu"
+  std::string shading;   ///< likewise: who makes the colours, where it can
   std::string renderer;  ///< FrameRaster::gl_renderer
 };
 RasterNames raster_names(const render::FrameRaster& raster);

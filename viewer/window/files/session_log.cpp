@@ -27,6 +27,7 @@ Expected<SessionLog> SessionLog::start(const std::string& path, const ViewState&
       {"machine", base::machine_description()},
       {"renderer", raster.renderer},
       {"raster", raster.raster},
+      {"shading", raster.shading},
       {"threads", method.render.threads == 0 ? fmt::format("{} (all cores)", thread_count())
                                              : fmt::format("{}", method.render.threads)},
       {"scene", state.options.file},
