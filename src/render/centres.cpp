@@ -9,7 +9,7 @@
 namespace tenebra::render {
 namespace {
 
-constexpr std::size_t at_once = std::size_t{1} << 14;
+constexpr std::size_t centres_at_once = std::size_t{1} << 14;
 
 void points_from_depth(const ViewRays& view, const visibility::VisibleIds& seen, VisiblePoints& points) {
   const std::size_t width = static_cast<std::size_t>(seen.width),
@@ -74,7 +74,7 @@ void find_points(const Frame& frame, const visibility::VisibleIds& seen, LitSamp
 /// 1 where a mask is lit, else 0.
 std::vector<float> fractions_of(const ShadowMask& mask) {
   std::vector<float> out(mask.size());
-  parallel::parallel_ranges(out.size(), at_once, [&](std::size_t first, std::size_t last) {
+  parallel::parallel_ranges(out.size(), centres_at_once, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) out[i] = mask[i] != 0 ? 1.0f : 0.0f;
   });
   return out;

@@ -7,7 +7,7 @@
 namespace tenebra::render {
 namespace {
 
-constexpr std::size_t at_once = 4096;
+constexpr std::size_t shaded_at_once = 4096;
 
 }  // namespace
 
@@ -54,7 +54,7 @@ Expected<void> CpuShading::begin_means(const MeansTask& task) {
   sums_.assign(count, glm::vec3(0.0f));
   linear_sums_.assign(task.linear ? count : 0, glm::vec3(0.0f));
   if (!task.centre_counts) return {};
-  parallel::parallel_ranges(count, at_once, [&](std::size_t first, std::size_t last) {
+  parallel::parallel_ranges(count, shaded_at_once, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) sums_[i] = shown(frame_->display, centres_[task.pixels[i]]);
     for (std::size_t i = first; task.linear && i < last; ++i) linear_sums_[i] = centres_[task.pixels[i]];
   });
@@ -63,12 +63,12 @@ Expected<void> CpuShading::begin_means(const MeansTask& task) {
 
 Expected<void> CpuShading::add_colors(const SampleShares& to, std::span<const shade::ShadedSample> colors) {
   const shade::Display& display = frame_->display;
-  parallel::parallel_ranges(to.centres.size(), at_once, [&](std::size_t begin, std::size_t end) {
+  parallel::parallel_ranges(to.centres.size(), shaded_at_once, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       if (to.centres[i] != 0)
         sums_[to.first + i] += to.centres[i] * shown(display, centres_[means_.pixels[to.first + i]]);
   });
-  parallel::parallel_ranges(colors.size(), at_once, [&](std::size_t begin, std::size_t end) {
+  parallel::parallel_ranges(colors.size(), shaded_at_once, [&](std::size_t begin, std::size_t end) {
     // A pixel's samples follow each other; they all belong to the range in which they begin.
     const auto goes_on = [&](std::size_t i) { return i > 0 && to.pixels[i] == to.pixels[i - 1]; };
     std::size_t i = begin;
@@ -96,7 +96,7 @@ Expected<void> CpuShading::add_samples(const shade::Samples& samples, const Samp
 
 Expected<void> CpuShading::finish_means(io::Image8& picture, io::ImageF& linear) {
   const float share = 1.0f / static_cast<float>(means_.samples);
-  parallel::parallel_ranges(means_.pixels.size(), at_once, [&](std::size_t first, std::size_t last) {
+  parallel::parallel_ranges(means_.pixels.size(), shaded_at_once, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
       encode_shown(frame_->display, share * sums_[i], &picture.pixels[3 * std::size_t{means_.pixels[i]}]);
     for (std::size_t i = first; means_.linear && i < last; ++i)

@@ -13,7 +13,7 @@
 namespace tenebra::render {
 namespace {
 
-constexpr std::size_t at_once = std::size_t{1} << 14;
+constexpr std::size_t lit_at_once = std::size_t{1} << 14;
 
 /// Moves further samples to where they are lit.
 void lift(const Frame& frame, LitSamples& samples) {
@@ -25,7 +25,7 @@ void lift(const Frame& frame, LitSamples& samples) {
   to.triangles = from.triangles;
   to.positions.resize(from.positions.size());
   to.tiles.clear();
-  parallel::parallel_ranges(to.triangles.size(), at_once, [&](std::size_t first, std::size_t last) {
+  parallel::parallel_ranges(to.triangles.size(), lit_at_once, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
       if (to.triangles[i] != no_triangle) to.positions[i] = from.positions[i];
   });
@@ -36,7 +36,7 @@ void lift(const Frame& frame, LitSamples& samples) {
 
 void fill_levels(const std::vector<float>& fractions, ShadowMask& out) {
   out.resize(fractions.size());
-  parallel::parallel_ranges(out.size(), at_once, [&](std::size_t first, std::size_t last) {
+  parallel::parallel_ranges(out.size(), lit_at_once, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) out[i] = in_levels(fractions[i]);
   });
 }

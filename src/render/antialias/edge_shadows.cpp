@@ -7,7 +7,7 @@
 namespace tenebra::render {
 namespace {
 
-constexpr std::size_t at_once = std::size_t{1} << 14;
+constexpr std::size_t edges_at_once = std::size_t{1} << 14;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ Expected<void> EdgeShadows::trace_own(const SampleStages& stages) {
                                 own_.points);
   if (auto lit = stages.lighter.light(frame, LightKinds::masks, own_); !lit) return lit;
   const points::SampleGrid grid(count);
-  parallel::parallel_ranges(count, at_once, [&](std::size_t first, std::size_t last) {
+  parallel::parallel_ranges(count, edges_at_once, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       LitBits bits = 0;
       for (std::size_t light = 0; light < frame.lights.size(); ++light) {

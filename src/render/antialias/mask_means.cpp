@@ -6,13 +6,13 @@
 namespace tenebra::render {
 namespace {
 
-constexpr std::size_t at_once = 4096;
+constexpr std::size_t means_at_once = 4096;
 
 /// The visible part of a light at every sample.
 std::vector<float> visible_fractions(const SampleLight& light) {
   if (!light.soft.visible_fraction.empty()) return light.soft.visible_fraction;
   std::vector<float> out(light.mask.size());
-  parallel::parallel_ranges(out.size(), at_once, [&](std::size_t first, std::size_t last) {
+  parallel::parallel_ranges(out.size(), means_at_once, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) out[i] = light.visible_at(i);
   });
   return out;
@@ -47,7 +47,7 @@ void MaskMeans::add(std::size_t first, std::size_t place, const SamplePicture& s
                     const SampleLight& lit, std::size_t light) {
   const std::size_t before = place + (pattern_.centre_counts ? 1 : 0);
   const std::size_t count = samples.count / samples.per_pixel;
-  parallel::parallel_ranges(count, at_once, [&](std::size_t begin, std::size_t end) {
+  parallel::parallel_ranges(count, means_at_once, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       for (std::size_t k = 0; k < samples.per_pixel; ++k) {
         const float visible = lit.visible_at(samples.slots[i * samples.per_pixel + k]);
