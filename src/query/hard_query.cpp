@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/predicates.h"
 #include "points/triangle_corners.h"
 #include "query/tracer_state.h"
-#include "shadow/decision/triangle_planes.h"
 
 namespace tenebra {
 namespace {
@@ -36,19 +36,20 @@ Expected<void> check_light(const ShadowLight& light) {
 /// The side of triangles that the light is on; quick for a run of points on one.
 class LightSide {
 public:
-  LightSide(const TriangleView& triangles, const ShadowLight& light)
-      : triangles_(triangles), source_(shadow::ray_source(light)) {}
+  LightSide(const TriangleView& triangles, const ShadowLight& light) : triangles_(triangles), light_(light) {}
   int operator()(std::uint32_t triangle) {
     if (triangle != last_) {
       last_ = triangle;
-      side_ = -shadow::light_side(points::corners_of(triangles_, triangle).v, source_);
+      const points::Corners c = points::corners_of(triangles_, triangle);
+      side_ = light_.directional ? math::direction_side(c.v[0], c.v[1], c.v[2], light_.to_light)
+                                 : math::point_side(c.v[0], c.v[1], c.v[2], light_.position);
     }
     return side_;
   }
 
 private:
   const TriangleView& triangles_;
-  const shadow::RaySource source_;
+  const ShadowLight& light_;
   std::uint32_t last_ = no_triangle;
   int side_ = 0;
 };
@@ -94,8 +95,7 @@ Expected<void> PointTracer::hard_mask(const Geometry& geometry, const QueryPoint
         s.seen.triangles[pixel] = free_point;
       }
     });
-    if (!s.hard.trace_shadow_mask(s.seen, triangles, light, config, s.mask, stop))
-      return base::stopped();
+    if (!s.hard.trace_shadow_mask(s.seen, triangles, light, config, s.mask, stop)) return base::stopped();
     query::each_point(portion,
                       [&](std::size_t i, std::size_t pixel) { mask[portion.first() + i] = s.mask[pixel]; });
     return {};
