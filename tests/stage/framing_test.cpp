@@ -67,7 +67,7 @@ TEST(AddedCamera, LooksAlongSlenderThingsUntilTheyFillThreeTenths) {
                           Case{"upright", upright}, Case{"tilted", tilted}}) {
     for (const float times : {6.0f, 12.0f}) {
       Scene scene = rod(2 * times, way.turn);
-      add_missing_parts(scene);
+      stage::add_missing_parts(scene);
       const FrameGeometry frame = frame_at(scene);
       expect_in_picture(scene, frame, 12);
       const Shares shares = shares_of(scene, frame, 12);
@@ -103,7 +103,7 @@ TEST(AddedCamera, SeesAnOpenShellThroughItsOpening) {
   for (const Wall wall : {back, front, left, right, top}) {
     Scene scene = scene_of({shell({wall})});
     const std::size_t triangles = frame_at(scene).triangles.size();
-    add_missing_parts(scene);
+    stage::add_missing_parts(scene);
     EXPECT_FALSE(is_in_the_room(scene)) << "wall " << wall;
     const Shown shown = shown_of(scene, triangles);
     EXPECT_GE(shown.fronts, 0.5 * shown.met) << "wall " << wall;
@@ -124,7 +124,7 @@ Scene thick_room() {
 TEST(AddedCamera, StandsInAClosedRoom) {
   for (Scene scene : {scene_of({shell()}), thick_room()}) {
     const std::size_t triangles = frame_at(scene).triangles.size();
-    const AddedParts added = add_missing_parts(scene);
+    const stage::AddedParts added = stage::add_missing_parts(scene);
     EXPECT_TRUE(is_in_the_room(scene));
     EXPECT_TRUE(added.camera && added.light && added.lamp);
     EXPECT_FALSE(added.floor) << "it has one";
@@ -165,7 +165,7 @@ Mesh sphere_inside_out() {
 }
 
 TEST(AddedCamera, StaysOutsideOfWhatIsNoRoom) {
-  const auto gets_lamp = [](Scene scene) { return add_missing_parts(scene).lamp; };
+  const auto gets_lamp = [](Scene scene) { return stage::add_missing_parts(scene).lamp; };
   EXPECT_FALSE(gets_lamp(boxes({{{-3, 0, -2}, {3, 2.5f, 2}}}))) << "a solid box";
   EXPECT_FALSE(gets_lamp(scene_of({sphere_inside_out()})));
   EXPECT_FALSE(gets_lamp(scene_of({shell({top})}))) << "a box without a lid";
@@ -179,7 +179,7 @@ TEST(AddedCamera, InAClosedRoomLeavesTheFilesLightAlone) {
   node.light = 0;
   node.translation = {0, 2, 0};
   scene.nodes.push_back(node);
-  const AddedParts added = add_missing_parts(scene);
+  const stage::AddedParts added = stage::add_missing_parts(scene);
   EXPECT_TRUE(added.camera && !added.light && !added.lamp && !added.floor);
   EXPECT_TRUE(is_in_the_room(scene));
   EXPECT_EQ(scene.lights.size(), 1u);

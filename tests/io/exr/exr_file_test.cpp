@@ -13,6 +13,8 @@
 namespace tenebra::testing {
 namespace {
 
+namespace exr = io::exr;
+
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
 struct Sample {

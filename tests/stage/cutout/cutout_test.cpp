@@ -176,7 +176,7 @@ TEST(Cutout, IsWhereAlphaIs) {
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
     Scene cut = c.scene;
-    const auto counts = cut_out_masks(cut);
+    const auto counts = stage::cut_out_masks(cut);
     EXPECT_TRUE(cut.warnings.empty());
     EXPECT_EQ(counts.triangles, 2u);
     EXPECT_EQ(counts.left, cut.meshes[0].triangles.size());
@@ -232,7 +232,7 @@ TEST(Cutout, MeetsAcrossEdges) {
         Case{"checker", patched(card(checker(64, 8)), 8, 3)}, Case{"mirrored", patched(mirrored, 7, 4)}}) {
     SCOPED_TRACE(c.name);
     Scene cut = c.scene;
-    const auto counts = cut_out_masks(cut);
+    const auto counts = stage::cut_out_masks(cut);
     const Judgement found = judge(c.scene, cut);
     EXPECT_EQ(found.wrong, 0);
     EXPECT_EQ(found.twice, 0);
@@ -243,7 +243,7 @@ TEST(Cutout, MeetsAcrossEdges) {
 
 TEST(Cutout, FinerToleranceHolds) {
   Scene whole = card(noise(24, 24, 11)), cut = whole;
-  cut_out_masks(cut, {.tolerance_px = 1.0 / 32});
+  stage::cut_out_masks(cut, {.tolerance_px = 1.0 / 32});
   EXPECT_EQ(judge(whole, cut, 1.0 / 32).wrong, 0);
 }
 
@@ -251,7 +251,7 @@ TEST(Cutout, AreaIsThatOfTheAlpha) {
   for (const Case& c : {Case{"leaf", card(leaf(256))}, Case{"checker", card(checker(64, 16))},
                         Case{"fence", card(fence(128))}}) {
     Scene cut = c.scene;
-    cut_out_masks(cut);
+    stage::cut_out_masks(cut);
     constexpr int n = 2048;
     int inside = 0;
     for (int y = 0; y < n; ++y)
@@ -264,15 +264,15 @@ TEST(Cutout, AreaIsThatOfTheAlpha) {
 
 TEST(Cutout, FewTriangles) {
   Scene cut = card(checker(64, 32));
-  EXPECT_LE(cut_out_masks(cut).left, 60u);
+  EXPECT_LE(stage::cut_out_masks(cut).left, 60u);
   Scene soft = card(leaf(512));
-  EXPECT_LE(cut_out_masks(soft).left, 500u);
+  EXPECT_LE(stage::cut_out_masks(soft).left, 500u);
 }
 
 TEST(Cutout, SameBitsForAnyThreads) {
   Scene one = card(noise(200, 200, 12)), many = one;
-  with_threads(1, [&] { cut_out_masks(one); });
-  with_threads(4, [&] { cut_out_masks(many); });
+  with_threads(1, [&] { stage::cut_out_masks(one); });
+  with_threads(4, [&] { stage::cut_out_masks(many); });
   EXPECT_EQ(one.meshes[0].positions, many.meshes[0].positions);
   EXPECT_EQ(one.meshes[0].triangles, many.meshes[0].triangles);
 }

@@ -27,7 +27,7 @@ Scene dressed_card() {
 
 TEST(CutMesh, NewVerticesHaveEverything) {
   Scene scene = dressed_card();
-  cut_out_masks(scene);
+  stage::cut_out_masks(scene);
   const Mesh& mesh = scene.meshes[0];
   const std::size_t n = mesh.positions.size();
   ASSERT_GT(n, 50u);
@@ -64,7 +64,7 @@ TEST(CutMesh, MoreThanEightJointsAreSaid) {
     mesh.joints.emplace_back(j, j + 1, j + 2, j + 3);
     mesh.weights.emplace_back(0.4f, 0.3f, 0.2f, 0.1f);
   }
-  cut_out_masks(scene);
+  stage::cut_out_masks(scene);
   ASSERT_EQ(mesh.more_weights.size(), mesh.positions.size());
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     float sum = 0;
@@ -76,14 +76,14 @@ TEST(CutMesh, MoreThanEightJointsAreSaid) {
 }
 
 std::size_t left_of(Scene scene) {
-  return cut_out_masks(scene).left;
+  return stage::cut_out_masks(scene).left;
 }
 
 TEST(CutMesh, WithoutAlphaNothingChanges) {
   Scene solid = card(picture(8, 8, [](int, int) { return 1.0; }));
   const std::vector<glm::uvec3> triangles = solid.meshes[0].triangles;
   EXPECT_EQ(left_of(solid), 2u);
-  cut_out_masks(solid);
+  stage::cut_out_masks(solid);
   EXPECT_EQ(solid.meshes[0].triangles, triangles);
   EXPECT_EQ(solid.meshes[0].positions.size(), 4u);
   EXPECT_EQ(left_of(card(picture(8, 8, [](int, int) { return 0.2; }))), 0u);
@@ -100,7 +100,7 @@ TEST(CutMesh, OtherMaterialsStay) {
   scene.materials.push_back(scene.materials[0]);
   scene.materials[0].alpha_mode = AlphaMode::blend;
   scene.meshes[0].materials[1] = 1;
-  const auto counts = cut_out_masks(scene);
+  const auto counts = stage::cut_out_masks(scene);
   EXPECT_EQ(counts.triangles, 1u);
   EXPECT_EQ(scene.materials[0].alpha_mode, AlphaMode::blend);
   EXPECT_EQ(scene.meshes[0].triangles[0], glm::uvec3(0, 1, 2));
@@ -133,7 +133,7 @@ TEST(CutMesh, CoordinatesOnOneLineAreCutToo) {
   // Alpha rises with u; v is constant: the card ends at u = 0.5.
   Scene scene = card(picture(256, 4, [](int x, int) { return x / 255.0; }), {0, 0.5f}, {1, 0.5f});
   scene.materials[0].base_color_map.wrap_u = Wrap::clamp_to_edge;
-  cut_out_masks(scene);
+  stage::cut_out_masks(scene);
   float least = 1;
   for (const glm::uvec3& t : scene.meshes[0].triangles)
     for (int k = 0; k < 3; ++k) least = std::fmin(least, scene.meshes[0].positions[t[k]].x);
@@ -144,7 +144,7 @@ TEST(CutMesh, VertexAlphaCutsStraight) {
   Scene scene = card(leaf(32));
   scene.images.clear();
   scene.meshes[0].colors = {{1, 1, 1, 0}, {1, 1, 1, 1}, {1, 1, 1, 1}, {1, 1, 1, 0}};
-  EXPECT_LE(cut_out_masks(scene).left, 6u);
+  EXPECT_LE(stage::cut_out_masks(scene).left, 6u);
   for (const glm::uvec3& t : scene.meshes[0].triangles)
     for (int k = 0; k < 3; ++k) EXPECT_GE(scene.meshes[0].positions[t[k]].x, 0.499f);
 }
@@ -153,7 +153,7 @@ TEST(CutMesh, VertexAlphaTimesTexture) {
   Scene scene = card(noise(32, 32, 3)), whole = scene;
   scene.meshes[0].colors = {{1, 1, 1, 0.2f}, {1, 1, 1, 1}, {1, 1, 1, 1}, {1, 1, 1, 0.2f}};
   const Mesh& mesh = scene.meshes[0];
-  cut_out_masks(scene);
+  stage::cut_out_masks(scene);
   ASSERT_GT(mesh.triangles.size(), 100u);
   for (const glm::uvec3& t : mesh.triangles) {
     const glm::vec3 middle = (mesh.positions[t.x] + mesh.positions[t.y] + mesh.positions[t.z]) / 3.0f;
@@ -164,13 +164,13 @@ TEST(CutMesh, VertexAlphaTimesTexture) {
 
 TEST(CutMesh, LimitMakesItCoarserAndSaysSo) {
   Scene scene = card(noise(256, 256, 4));
-  const auto counts = cut_out_masks(scene, {.most_added = 1000});
+  const auto counts = stage::cut_out_masks(scene, {.most_added = 1000});
   EXPECT_LE(counts.left, 1002u);
   ASSERT_EQ(scene.warnings.size(), 1u);
   EXPECT_NE(scene.warnings[0].find("card: alpha is cut out to"), std::string::npos) << scene.warnings[0];
   Scene instances = card(noise(64, 64, 4));
   for (int i = 0; i < 9; ++i) instances.nodes.emplace_back().mesh = 0;
-  const auto ten = cut_out_masks(instances, {.most_added = 20000});
+  const auto ten = stage::cut_out_masks(instances, {.most_added = 20000});
   EXPECT_EQ(ten.triangles, 20u);
   EXPECT_LE(ten.left, 20020u);
   EXPECT_EQ(instances.warnings.size(), 1u);
@@ -178,15 +178,15 @@ TEST(CutMesh, LimitMakesItCoarserAndSaysSo) {
 
 TEST(CutMesh, ManyRepeatsEnd) {
   Scene hundred = card(fence(64), {0, 0}, {100, 100});  // 35 million triangles at full fineness
-  EXPECT_LE(cut_out_masks(hundred, {.most_added = 50'000}).left, 50'002u);
+  EXPECT_LE(stage::cut_out_masks(hundred, {.most_added = 50'000}).left, 50'002u);
   EXPECT_EQ(hundred.warnings.size(), 1u);
   Scene scene = card(leaf(16), {0, 0}, {1e5f, 1e5f});
-  EXPECT_LE(cut_out_masks(scene).left, 2u);
+  EXPECT_LE(stage::cut_out_masks(scene).left, 2u);
   EXPECT_EQ(scene.warnings.size(), 1u);
   Scene clamped = card(leaf(16), {-1e5f, -1e5f}, {1e5f, 1e5f});
   clamped.materials[0].base_color_map.wrap_u = clamped.materials[0].base_color_map.wrap_v =
       Wrap::clamp_to_edge;
-  EXPECT_LE(cut_out_masks(clamped).left, 300u);
+  EXPECT_LE(stage::cut_out_masks(clamped).left, 300u);
   EXPECT_TRUE(clamped.warnings.empty());
 }
 

@@ -77,7 +77,7 @@ void compare(const char* name, Scene card) {
   SCOPED_TRACE(name);
   for (glm::vec3& p : card.meshes[0].positions) p = {p.x, 0.3f + 0.35f * p.y, p.y};
   Scene cut = card;
-  cut_out_masks(cut);
+  stage::cut_out_masks(cut);
   MaskCase c;
   c.soup.positions = cut.meshes[0].positions;
   c.soup.triangles = cut.meshes[0].triangles;
