@@ -24,7 +24,7 @@ MAY_INCLUDE = {
     "soft": {"base", "math", "simd", "parallel", "scene", "points"},  # and hard shadows by their public header
     "tint": {"base", "math", "simd", "parallel", "scene", "texture", "points", "shadow", "soft"},
     "ao": {"base", "io", "math", "simd", "parallel", "scene", "texture", "points"},
-    "query": {"base", "math", "parallel", "scene", "points", "shadow"},  # sides of triangles; the tracers by their public headers
+    "query": {"base", "math", "parallel", "scene", "points"},  # and the tracers by their public headers
     "host": {"base"},
     "c_api": {"base"},
     "shade": {"base", "io", "math", "simd", "parallel", "scene", "texture", "points"},
