@@ -47,7 +47,7 @@ TEST(AddedCamera, FillsThreeTenthsOfThePictureAndShowsTheShadow) {
     const FrameGeometry frame = frame_at(shape.scene);
     EXPECT_EQ(frame.triangles.size(), subject + 2);
     expect_in_picture(shape.scene, frame, subject);
-    const Shares shares = shares_of(shape.scene, frame, subject);
+    const BoxShares shares = shares_of(shape.scene, frame, subject);
     EXPECT_GE(shares.subject, 0.3) << shape.name;
     EXPECT_GE(shares.shadow, 0.015) << shape.name;
   }
@@ -94,7 +94,7 @@ TEST(AddedCamera, FillsThePictureAsMuchHoweverFineTheTrianglesAre) {
     fine.meshes = shape.scene.meshes;  // seen by its own camera
     const FrameGeometry frame = frame_at(fine);
     expect_in_picture(fine, frame, subject.triangles.size());
-    const Shares shares = shares_of(fine, frame, subject.triangles.size());
+    const BoxShares shares = shares_of(fine, frame, subject.triangles.size());
     EXPECT_GE(shares.subject, 0.27) << shape.name;
     EXPECT_GE(shares.shadow, 0.015) << shape.name;
   }

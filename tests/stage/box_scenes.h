@@ -74,17 +74,17 @@ inline std::optional<double> first_hit(const FrameGeometry& frame, std::size_t t
   return nearest;
 }
 
-struct Shares {
+struct BoxShares {
   double subject = 0, shadow = 0;
 };
 /// Of a picture's pixels, by rays: what sees the first `subject` triangles, and what sees their shadow on the
 /// others.
-inline Shares shares_of(const Scene& scene, const FrameGeometry& frame, std::size_t subject) {
+inline BoxShares shares_of(const Scene& scene, const FrameGeometry& frame, std::size_t subject) {
   const int height = 60, width = static_cast<int>(height * scene.cameras[0].aspect.value_or(4 / 3.0f));
   const int clip = scene.clips.empty() ? -1 : 0;
   const ViewRays view = evaluate_camera(scene, clip, 0, 0, width, height);
   const auto lights = evaluate_lights(scene, clip, 0);
-  Shares shares;
+  BoxShares shares;
   for (int i = 0; i < width * height; ++i) {
     const dvec3 direction =
         dvec3(view.d0) + (i % width + 0.5) * dvec3(view.dx) + (i / width + 0.5) * dvec3(view.dy);

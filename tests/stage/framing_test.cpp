@@ -70,7 +70,7 @@ TEST(AddedCamera, LooksAlongSlenderThingsUntilTheyFillThreeTenths) {
       stage::add_missing_parts(scene);
       const FrameGeometry frame = frame_at(scene);
       expect_in_picture(scene, frame, 12);
-      const Shares shares = shares_of(scene, frame, 12);
+      const BoxShares shares = shares_of(scene, frame, 12);
       EXPECT_GE(shares.subject, 0.3) << way.name << ", " << times << " times as long as wide";
       EXPECT_GE(off_axis_deg(scene, way.turn * glm::vec3(0, 0, 1)), 18) << way.name << ": its length is seen";
     }
