@@ -63,7 +63,8 @@ struct Shot {
     compute_visible_points(ids, width, height, view, {positions, triangles, {}}, points);
     const unsigned after_points = _mm_getcsr();
     ShadowMask mask;
-    ShadowTracer().trace_shadow_mask(seen_from(points, view), {positions, triangles, {}}, light, {}, mask);
+    ShadowTracer().trace_shadow_mask(testing::seen_from(points, view), {positions, triangles, {}}, light, {},
+                                     mask);
     EXPECT_EQ(_mm_getcsr() & ~flags, after_points & ~flags);
     return {points.positions, mask};
   }

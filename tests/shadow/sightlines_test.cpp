@@ -3,6 +3,7 @@
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
+#include "points/triangle_corners.h"
 #include "shadow/mask_case.h"
 #include "shadow/rays/sightlines.h"
 #include "support/round_bodies.h"
