@@ -23,7 +23,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       config.variant = static_cast<Variant>(variant);
       config.simd = level;
       ShadowMask mask;
-      ShadowTracer().trace_shadow_mask(seen_from(c.points, c.view), c.soup.view(), light, config, mask);
+      ShadowTracer().trace_shadow_mask(c.points, c.soup.view(), light, config, mask);
       if (mask != expected)
         fuzz::found(std::string(variant_name(config.variant)) + " at " + std::string(simd_level_name(level)) +
                     fuzz::describe(c));

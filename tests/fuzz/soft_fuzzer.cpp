@@ -15,7 +15,7 @@ constexpr double promised = 1e-6;
 
 SoftMask traced(const fuzz::SoupCase& c, const AreaLight& light, const SoftShadowConfig& config) {
   SoftMask mask;
-  SoftShadowTracer().trace(seen_from(c.points, c.view), {}, c.soup.view(), light, config, mask);
+  SoftShadowTracer().trace(c.points, {}, c.soup.view(), light, config, mask);
   return mask;
 }
 

@@ -26,6 +26,7 @@ inline SoupCase soup_case(InputBytes& bytes, int most) {
   SoupCase c;
   c.unit = std::ldexp(1.0f, bytes.below(16) - 8);
   c.view.eye = bytes.vector(c.unit);
+  c.points.seen_from = c.view;
   const int count = 1 + bytes.below(most);
   for (int i = 0; i < count; ++i) {
     glm::vec3 corner[3];

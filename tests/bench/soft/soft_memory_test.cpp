@@ -20,9 +20,8 @@ Held measured(const SoftCase& c, const SoftShadowConfig& config) {
   SoftShadowTracer tracer;
   SoftMask mask;
   const MemoryMeter meter;
-  with_threads(2, [&] {
-    run.done = tracer.trace(seen_from(c.points, c.view), c.normals, c.soup.view(), c.light, config, mask);
-  });
+  with_threads(2,
+               [&] { run.done = tracer.trace(c.points, c.normals, c.soup.view(), c.light, config, mask); });
   run.mb = meter.mb();
   return run;
 }
