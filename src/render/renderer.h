@@ -79,12 +79,12 @@ struct RenderSettings {
   // Anti-aliasing: antialias/pattern.h has the places, antialias/pixel_choice.h which pixels need them.
   int antialias = 1;                  ///< samples of a pixel that needs more than one: 1, 2, 4, 8, 16 or 256
   bool antialias_everywhere = false;  ///< every pixel gets all of them; 256 need it
-  bool mask_means = false;            ///< fill LightMask::mean
-  bool sample_masks = false;          ///< fill LightMask::samples
-  bool error_maps = false;            ///< fill LightMask::error
-  bool linear = false;                ///< fill FrameResult::linear and seen; the picture is the same
-  bool linear_mean = false;           ///< fill FrameResult::linear_mean; the picture is the same
-  AovChoice aovs;                     ///< what of FrameResult::aovs is filled; the picture is the same
+  bool mask_means = false;    ///< fill LightMask::mean: traces every sample of an edge, where some share else
+  bool sample_masks = false;  ///< fill LightMask::samples, likewise
+  bool error_maps = false;    ///< fill LightMask::error
+  bool linear = false;        ///< fill FrameResult::linear and seen; the picture is the same
+  bool linear_mean = false;   ///< fill FrameResult::linear_mean; the picture is the same
+  AovChoice aovs;             ///< what of FrameResult::aovs is filled; the picture is the same
 };
 
 /// Whether the points that shadows and occlusion start from are lifted.
