@@ -41,7 +41,7 @@ Expected<void> take_light(MapScene& map) {
   if (drawn->size() != 1 || !drawn->front().area)
     return base::fail("{}: found {} lights, expected one with an area", map.scene.name, drawn->size());
   map.light = drawn->front().area;
-  const auto terms = shade::light_terms({drawn->front().light, drawn->front().placed, &*map.light}, {});
+  const auto terms = shade::light_terms(drawn->front(), {});
   map.white_of_radiance = terms.color.r;
   return {};
 }
