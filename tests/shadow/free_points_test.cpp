@@ -16,10 +16,14 @@ MaskCase air(std::uint64_t seed, const ShadowLight& light) {
   c.view = view_from_light(light);
   c.points = points_on_triangles(c.soup, random, 900);
   c.points.seen_from = c.view;
+  std::vector<std::int8_t> sides;
   for (std::size_t i = 0; i < c.points.triangles.size(); ++i) {
     const std::uint32_t id = c.points.triangles[i];
-    c.points.sides.push_back(
+    sides.push_back(
         static_cast<std::int8_t>(id == no_triangle ? 0 : visible_side(c.points, c.soup.view(), i)));
+  }
+  c.points.sides = std::move(sides);
+  for (std::size_t i = 0; i < c.points.triangles.size(); ++i) {
     if (i % 3 == 1) continue;
     c.points.triangles[i] = free_point, c.points.sides[i] = 0;
     if (i % 3 == 0) c.points.positions[i] = random.in_cube(0.9);
