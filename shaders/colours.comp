@@ -32,6 +32,7 @@ vec3 tint_of(int light, uint sample_number) {
 }
 
 vec4 vertex_color_of(uint id, vec3 weights) {
+  if (u_rules > 0 && !has_planes(id)) return vec4(1.0);
   uvec3 t = uvec3(triangles[3 * id], triangles[3 * id + 1], triangles[3 * id + 2]);
   if (max(max(t.x, t.y), t.z) >= u_vertex_colours) return vec4(1.0);
   return weights.x * vertex_colours[t.x] + weights.y * vertex_colours[t.y] + weights.z * vertex_colours[t.z];
@@ -49,7 +50,10 @@ void main() {
                            : vec2(float_at(u_places + 2 * i), float_at(u_places + 2 * i + 1));
   Seen seen = seen_at(id, place);
   vec3 to_eye = u_orthographic ? -normalize(u_d0) : -seen.point / max(length(seen.point), 1e-30);
-  Surface s = surface_of(min(material_numbers[id], u_material_count - 1), vertex_color_of(id, seen.weights));
+  uint number = min(material_numbers[id], u_material_count - 1);
+  Pattern p = pattern_of(number, id, seen);
+  p.base *= vertex_color_of(id, seen.weights);
+  Surface s = surface_of(number, p);
   float open = u_openness > 0 ? float_at(u_openness + i) : 1.0;
   vec3 sum = open * ambient_of(seen, s, to_eye, u_around, u_brighter) + s.emissive;
   for (int light = 0; light < u_light_count; ++light) {

@@ -19,7 +19,8 @@ struct Seen {
   vec3 point;   // relative to the eye
   vec3 normal;  // unit shading normal, to the eye's side
   vec3 before;  // light counts where this points to
-  vec3 weights; // of the triangle's vertices
+  vec3 weights;  // of the triangle's vertices
+  vec4 steps;    // what those of the second and third change by: a column further, and a row further
 };
 
 vec3 corner(uint vertex) { return vec3(positions[3 * vertex], positions[3 * vertex + 1], positions[3 * vertex + 2]) - u_eye; }
@@ -28,15 +29,20 @@ float size_of(vec3 v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 
 // Weights of the second and third vertex where the ray meets the triangle's plane, moved into the triangle. All but
 // the place in units of 1 / scale metres.
-vec2 weights_at(vec2 place, float scale, vec3 a, vec3 e1, vec3 e2, vec3 n) {
+vec2 weights_at(vec2 place, float scale, vec3 a, vec3 e1, vec3 e2, vec3 n, out vec4 steps) {
   vec3 across = place.x * u_dx + place.y * u_dy;
   vec3 from = u_orthographic ? scale * across : vec3(0.0), ray = u_orthographic ? u_d0 : u_d0 + across;
   float speed = dot(n, ray), area2 = dot(n, n);
   float t = dot(n, a - from) / speed;
   bool in_front = area2 > 0.0 && speed != 0.0 && (u_orthographic || t > 0.0) && abs(t) < 1e30;
+  steps = vec4(0.0);
   if (!in_front) return vec2(1.0 / 3.0);
+  float unit_size = u_orthographic ? scale : t;
+  vec3 column = unit_size * (u_dx - dot(n, u_dx) / speed * ray), row = unit_size * (u_dy - dot(n, u_dy) / speed * ray);
+  vec3 by_u = cross(e2, n) / area2, by_v = cross(n, e1) / area2;
+  steps = vec4(dot(by_u, column), dot(by_v, column), dot(by_u, row), dot(by_v, row));
   vec3 inside = from + t * ray - a;
-  vec2 w = vec2(dot(cross(e2, n), inside), dot(cross(n, e1), inside)) / area2;
+  vec2 w = vec2(dot(by_u, inside), dot(by_v, inside));
   float rest = 1.0 - w.x - w.y;
   if (w.x >= 0.0 && w.y >= 0.0 && rest >= 0.0) return w;
   vec2 held = max(w, vec2(0.0));
@@ -50,8 +56,8 @@ Seen seen_at(uint id, vec2 place) {
   // The longest edge to 1, so that the squares of small triangles do not vanish.
   float scale = 1.0 / max(max(size_of(e1), size_of(e2)), 1e-30);
   vec3 n = cross(scale * e1, scale * e2);
-  vec2 w = weights_at(place, scale, scale * a, scale * e1, scale * e2, n);
   Seen seen;
+  vec2 w = weights_at(place, scale, scale * a, scale * e1, scale * e2, n, seen.steps);
   seen.weights = vec3(1.0 - w.x - w.y, w.x, w.y);
   seen.point = a + w.x * e1 + w.y * e2;
   float area = length(n), away = u_orthographic ? dot(n, u_d0) : dot(n, a);

@@ -5,6 +5,7 @@ struct Material {
   vec4 ambient;   // reflectance, x < 0: as the base; share that passes
   vec4 specular;  // reflectance; roughness
   vec4 more;      // metallic; exponent; 1: opaque whatever alpha is
+  ivec4 maps[3];  // numbers of textures, -1: none, each with its use: base, emissive, metallic_roughness, specular, passing
 };
 layout(std430, binding = 4) readonly buffer Materials { Material materials[]; };
 layout(location = 8) uniform vec3 u_ambient_light;
@@ -16,29 +17,46 @@ struct Surface {
   float exponent;
 };
 
-Surface surface_of(uint number, vec4 vertex_color) {
+// What textures and vertices give at a sample; 1 where there are none.
+struct Pattern {
+  vec4 base, emissive, gloss, specular, passing;
+};
+
+Pattern pattern_of(uint number, uint id, Seen seen) {
+  Pattern p = Pattern(vec4(1.0), vec4(1.0), vec4(1.0), vec4(1.0), vec4(1.0));
+  if (!has_planes(id)) return p;
+  ivec4 first = materials[number].maps[0], second = materials[number].maps[1], third = materials[number].maps[2];
+  p.base = texture_at(first.x, first.y, id, seen.weights, seen.steps);
+  p.emissive = texture_at(first.z, first.w, id, seen.weights, seen.steps);
+  p.gloss = texture_at(second.x, second.y, id, seen.weights, seen.steps);
+  p.specular = texture_at(second.z, second.w, id, seen.weights, seen.steps);
+  p.passing = texture_at(third.x, third.y, id, seen.weights, seen.steps);
+  return p;
+}
+
+Surface surface_of(uint number, Pattern p) {
   Material m = materials[number];
   int model = int(m.emissive.w);
-  vec3 base = m.base.rgb * vertex_color.rgb;
-  Surface s = Surface(base, vec3(0.0), m.emissive.rgb, vec3(0.0), m.more.z > 0.0 ? 1.0 : m.base.a * vertex_color.a, -1.0, 1.0);
+  vec3 base = m.base.rgb * p.base.rgb;
+  Surface s = Surface(base, vec3(0.0), m.emissive.rgb * p.emissive.rgb, vec3(0.0), m.more.z > 0.0 ? 1.0 : m.base.a * p.base.a, -1.0, 1.0);
   if (model == 0) {
-    s.specular = m.specular.rgb;
+    s.specular = m.specular.rgb * p.specular.rgb;
     s.exponent = max(m.more.y, 0.0);
   } else if (model == 1) {
-    float metallic = m.more.x;
+    float metallic = m.more.x * p.gloss.b;
     s.specular = (1.0 - metallic) * vec3(0.04) + metallic * base;
     s.base = (1.0 - metallic) * base;
-    s.roughness = clamp(m.specular.w, 0.0, 1.0);
+    s.roughness = clamp(m.specular.w * p.gloss.g, 0.0, 1.0);
   } else if (model == 2) {
-    s.specular = m.specular.rgb;
+    s.specular = m.specular.rgb * p.specular.rgb;
     s.base = (1.0 - max(max(s.specular.r, s.specular.g), s.specular.b)) * base;
-    s.roughness = clamp(m.specular.w, 0.0, 1.0);
+    s.roughness = clamp(1.0 - (1.0 - m.specular.w) * p.specular.a, 0.0, 1.0);
   } else {
     s.emissive += base;
     s.base = vec3(0.0);
     return s;
   }
-  s.base *= 1.0 - clamp(m.ambient.w, 0.0, 1.0);
-  s.ambient = (m.ambient.x < 0.0 ? s.base : m.ambient.rgb * vertex_color.rgb) * u_ambient_light;
+  s.base *= 1.0 - clamp(m.ambient.w * p.passing.r, 0.0, 1.0);
+  s.ambient = (m.ambient.x < 0.0 ? s.base : m.ambient.rgb * p.base.rgb) * u_ambient_light;
   return s;
 }

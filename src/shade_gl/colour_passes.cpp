@@ -15,7 +15,7 @@ namespace tenebra::shade_gl {
 namespace {
 
 // Locations of shaders/*.
-constexpr GLint width_at = 14, places_at = 15, openness_at = 16, light_count_at = 17;
+constexpr GLint width_px_at = 19, width_at = 14, places_at = 15, openness_at = 16, light_count_at = 17;
 constexpr GLint first_at = 20, shares_at = 21, pixels_at = 22, count_at = 30;
 constexpr GLint exposure_at = 40, tone_at = 41, srgb_at = 42, thresholds_at = 43, factors_at = 50;
 // Bindings of storage.
@@ -75,7 +75,8 @@ Expected<ColourPasses> ColourPasses::create() {
   for (const Pass& pass : std::vector<Pass>{
            {"colours",
             &passes.colours_,
-            {limits, s::numbers_glsl, s::samples_glsl, s::surfaces_glsl, s::lights_glsl, s::colours_comp}},
+            {limits, s::numbers_glsl, s::samples_glsl, s::textures_glsl, s::surfaces_glsl, s::lights_glsl,
+             s::colours_comp}},
            {"replaced", &passes.replaced_, {s::numbers_glsl, s::replaced_comp}},
            {"picture", &passes.picture_, {s::numbers_glsl, s::display_glsl, s::picture_comp}},
            {"centre_sums", &passes.centre_sums_, {s::numbers_glsl, s::display_glsl, s::centre_sums_comp}},
@@ -153,6 +154,7 @@ Expected<void> ColourPasses::shade_centres(const shade::PixelSamples& centres, i
   lists_.add(centres.ids);
   add_factors(centres.factors, centres.openness);
   glProgramUniform1ui(colours_.name(), width_at, static_cast<GLuint>(width_));
+  glProgramUniform1f(colours_.name(), width_px_at, 1.0f);
   if (auto drawn = run_colours(count, centre_colors_); !drawn) return drawn;
   bind(colors_binding, centre_colors_);
   bind(inputs_binding, bytes_);
@@ -201,6 +203,7 @@ Expected<void> ColourPasses::shade_samples(const shade::Samples& samples,
   lists_.add(samples.ids);
   glProgramUniform1ui(colours_.name(), places_at, lists_.add(samples.places));
   glProgramUniform1ui(colours_.name(), width_at, 0);
+  glProgramUniform1f(colours_.name(), width_px_at, samples.width_px);
   add_factors(samples.factors, samples.openness);
   if (auto drawn = run_colours(count, sample_colors_); !drawn) return drawn;
   const auto found = read(sample_colors_, bytes);
@@ -255,6 +258,7 @@ Expected<void> ColourPasses::add_samples(const shade::Samples& samples, const Sh
   lists_.add(samples.ids);
   glProgramUniform1ui(colours_.name(), places_at, lists_.add(samples.places));
   glProgramUniform1ui(colours_.name(), width_at, 0);
+  glProgramUniform1f(colours_.name(), width_px_at, samples.width_px);
   add_factors(samples.factors, samples.openness);
   const std::uint32_t pixels_from = lists_.add(shares.pixels), shares_from = lists_.add(shares.shares),
                       centres_from = lists_.add(shares.centres);

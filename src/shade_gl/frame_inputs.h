@@ -29,10 +29,16 @@ public:
   void bind(const gl::Program& program) const;
 
 private:
-  Expected<void> send_geometry(const FrameGeometry& geometry, std::size_t& sent_bytes);
+  Expected<void> send_geometry(const FrameGeometry& geometry, std::size_t& sent_bytes,
+                               std::size_t& of_triangles);
   Expected<void> send_materials(const shade::SurfaceTable& surfaces, std::size_t& sent_bytes);
+  Expected<void> send_textures(const shade::Subject& subject, bool triangles_changed,
+                               std::size_t& sent_bytes);
 
   gl::SentBuffer positions_, triangles_, normals_, material_numbers_, materials_, vertex_colors_, lights_;
+  gl::SentBuffer textures_, planes_;
+  const shade::SurfaceTable* textured_ = nullptr;  // whose textures these are: they stay as they were made
+  unsigned rules_ = 0;
   ViewRays view_;
   glm::vec3 ambient_light_{1.0f}, background_{0.0f};
   unsigned triangle_count_ = 0, material_count_ = 0, colored_vertices_ = 0;
