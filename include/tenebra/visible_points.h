@@ -86,7 +86,7 @@ struct VisiblePoints {
   /// The side of its triangle that each point is on: 1 where the triangle is counter-clockwise, -1 behind, 0
   /// on neither, so that no light reaches it. Empty: visible_side() says which.
   std::vector<std::int8_t> sides;
-  PointTileStore tiles;  ///< empty, or the same points again: clear them if you change the points
+  PointTileStore tiles;  ///< empty, or the same points again: clear them if you change the points or sides
   SeenFrom seen_from;    ///< the rays of the pixels, where `positions` is empty; the eye, where `sides` is
 };
 
