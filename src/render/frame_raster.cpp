@@ -70,13 +70,12 @@ Expected<FrameRaster> FrameRaster::create(gl::Context context) {
 }
 
 Expected<FrameRaster> FrameRaster::create(const RasterChoice& choice) {
-  if (choice.kind == RasterKind::cpu && choice.shading == RasterKind::cpu) return FrameRaster();
+  // The passes that make colours have been held to the CPU's on software OpenGL, and never ran on a GPU.
+  const bool shades = choice.shading == RasterKind::gl;
+  if (choice.kind == RasterKind::cpu && !shades) return FrameRaster();
   auto context = gl::Context::create(choice.context, choice.options);
   const bool hardware = context && !gl::is_software_renderer(context->description());
-  const auto wants = [&](RasterKind kind) {
-    return kind == RasterKind::gl || (kind == RasterKind::automatic && hardware);
-  };
-  const bool draws = wants(choice.kind), shades = wants(choice.shading);
+  const bool draws = choice.kind == RasterKind::gl || (choice.kind == RasterKind::automatic && hardware);
   if (!draws && !shades) return FrameRaster();
   if (!context) return tl::unexpected(context.error());
   FrameRaster result;
@@ -88,15 +87,13 @@ Expected<FrameRaster> FrameRaster::create(const RasterChoice& choice) {
     result.for_shading_.emplace(std::move(*context));
   }
   if (!shades) return result;
-  if (auto made = result.make_shading(choice.shading); !made) return tl::unexpected(made.error());
+  if (auto made = result.make_shading(); !made) return tl::unexpected(made.error());
   return result;
 }
 
-/// automatic: shaders that do not build leave the colours to the CPU.
-Expected<void> FrameRaster::make_shading(RasterKind kind) {
+Expected<void> FrameRaster::make_shading() {
   auto made = GlShading::create();
-  if (!made && kind == RasterKind::gl) return tl::unexpected(std::move(made.error()));
-  if (!made) return {};
+  if (!made) return tl::unexpected(std::move(made.error()));
   shading_ = std::move(*made);
   shades_by_gl_ = true;
   return {};

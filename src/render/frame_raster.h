@@ -25,7 +25,8 @@ enum class RasterKind { automatic, gl, cpu };
 /// How pictures are to be rasterised and their colours made, and the OpenGL context for it.
 struct RasterChoice {
   RasterKind kind = RasterKind::automatic;
-  RasterKind shading = RasterKind::automatic;  ///< who makes the colours; gl: what OpenGL can (GlShading)
+  RasterKind shading = RasterKind::automatic;  ///< who makes the colours; gl: what OpenGL can (GlShading);
+                                               ///< automatic: the CPU
   gl::ContextChoice context;
   gl::ContextOptions options;
 };
@@ -35,7 +36,7 @@ struct RasterChoice {
 class FrameRaster {
 public:
   /// gl: by OpenGL. cpu: without any context. automatic: by OpenGL if there is a context and it draws by more
-  /// than software. The same for the colours. Fails with a sentence if there is no context, it lacks
+  /// than software. Fails with a sentence if there is no context, it lacks
   /// OpenGL 4.5 core or a shader does not build.
   static Expected<FrameRaster> create(const RasterChoice& choice);
   /// By OpenGL in this context, even if it is software. An adopted one is left as found after each draw
@@ -73,7 +74,7 @@ public:
 private:
   struct Gl;
   FrameRaster();
-  Expected<void> make_shading(RasterKind kind);
+  Expected<void> make_shading();
   std::unique_ptr<Gl> gl_;                   ///< null: on the CPU
   std::optional<gl::Context> for_shading_;   ///< where the CPU rasterises and OpenGL makes the colours
   std::unique_ptr<FrameShading> shading_{};  ///< null: taken, or by the CPU

@@ -30,8 +30,8 @@ std::array<AddedOption, 3> add_raster_options(CLI::App& command, render::RasterC
               .type_name("auto|gl|cpu"),
           add_value(command, "--shading", choice.shading, parse_raster,
                     "Who makes the colours of what is seen from light and\n"
-                    "shadows: OpenGL or the CPU [auto: OpenGL on a GPU, else the\n"
-                    "CPU, which also makes what OpenGL cannot yet]")
+                    "shadows: the CPU, or OpenGL but for what it cannot make yet\n"
+                    "[auto: the CPU]")
               .type_name("auto|gl|cpu"),
           add_value(command, "--context", choice.context, parse_context,
                     "Offscreen OpenGL for the above; egl:N is device N of\n"
