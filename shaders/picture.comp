@@ -2,7 +2,7 @@
 layout(std430, binding = 6) readonly buffer Colours { vec4 colours[]; };
 layout(std430, binding = 5) writeonly buffer Bytes { uint words[]; };
 
-uint levels_at(uint pixel) { return pixel < u_count ? levels_of(shown(colours[pixel].rgb)) : 0; }
+uint levels_at(uint pixel) { return pixel < u_count ? levels_of(shown(colours[pixel].rgb)) : 0u; }
 
 void main() {
   uint first = 4 * own_number();
