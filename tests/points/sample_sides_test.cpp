@@ -42,7 +42,8 @@ TEST(SampleSides, AreWhatIsStored) {
   VisiblePoints points = points_on(3);
   points.seen_from = ViewRays{.eye = {0, 1, 0}};
   points.sides = {1, -1, 0};
-  points::SideFinder sides(points, soup.view());
+  const TriangleView triangles = soup.view();
+  points::SideFinder sides(points, triangles);
   EXPECT_TRUE(sides.differ());
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(sides.at(i), points.sides[i]);
 }

@@ -54,7 +54,9 @@ protected:
     for (std::size_t i = 0; i < cpu.image.pixels.size(); ++i)
       apart += std::abs(cpu.image.pixels[i] - gl.image.pixels[i]) > 1;
     EXPECT_LE(apart, cpu.image.pixels.size() / 1000);
-    if (!by_gl) EXPECT_EQ(gl.image, cpu.image);
+    if (!by_gl) {
+      EXPECT_EQ(gl.image, cpu.image);
+    }
   }
 
   static RenderSettings settings(ShadowMode shadows, int antialias) {
