@@ -1,6 +1,7 @@
 // Inside of gl::Context: the functions that EGL, OSMesa and a window's context implement in their own ways.
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,7 +35,7 @@ struct EglOffer {
   BackendResult backend;
 };
 /// All of them, each with a context; none if there is no EGL.
-std::vector<EglOffer> egl_offers();
+std::deque<EglOffer> egl_offers();
 
 /// Loads the functions of the context that is current and describes it; fails below OpenGL 4.5.
 Expected<void> load_functions(Context::Backend& backend);

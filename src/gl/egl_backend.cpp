@@ -219,8 +219,8 @@ BackendResult create_egl_backend(ContextOptions options, std::optional<int> devi
   return base::fail(ErrorKind::device, "EGL offers no OpenGL 4.5 core context without a window ({})", lacks);
 }
 
-std::vector<EglOffer> egl_offers() {
-  std::vector<EglOffer> offers;
+std::deque<EglOffer> egl_offers() {
+  std::deque<EglOffer> offers;  // not a vector: g++ 12 warns of what it does when it grows
   const auto egl = load_egl();
   if (!egl) return offers;
   for (const Platform& platform : platforms_of(*egl))
