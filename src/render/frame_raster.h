@@ -36,8 +36,8 @@ struct RasterChoice {
 class FrameRaster {
 public:
   /// gl: by OpenGL. cpu: without any context. automatic: by OpenGL if there is a context and it draws by more
-  /// than software. Fails with a sentence if there is no context, it lacks
-  /// OpenGL 4.5 core or a shader does not build.
+  /// than software. Fails with a sentence if there is no context, it lacks OpenGL 4.5 core or a shader does
+  /// not build.
   static Expected<FrameRaster> create(const RasterChoice& choice);
   /// By OpenGL in this context, even if it is software. An adopted one is left as found after each draw
   /// (gl/kept_state.h).
