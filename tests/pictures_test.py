@@ -50,7 +50,7 @@ class ExrTest(unittest.TestCase):
         self.path = Path(self.folder.name)
 
     def draw(self, *more):
-        render("--shadows", "soft", "--ao", "adaptive", "-o", self.path / "##.exr", "--exr-type", "float", "--aov",
+        render("--shadows", "soft", "--ao", "adaptive", "-o", self.path / "##.exr", "--format", "float", "--aov",
                "depth,id,normal,visibility,irradiance,ao,albedo", "--antialias", 1, "--frames", "3", *more)
 
     def drawn(self, *more):
@@ -105,7 +105,7 @@ class ExrTest(unittest.TestCase):
         """The court's panel as a point: I cos cos' / d^2, from depths and normals alone."""
         light, towards = (4.6, 9.2, 5.6), (-0.444539, -0.724433, -0.526861)
         candela = [288 * 2 * 1.25 * c for c in (1, 0.9, 0.74)]
-        render("-o", self.path / "a.exr", "--exr-type", "float", "--antialias", 1, "--eye", "3,7,4", "--look-at",
+        render("-o", self.path / "a.exr", "--format", "float", "--antialias", 1, "--eye", "3,7,4", "--look-at",
                "-1,0,-1", "--fov", 40, "--aov", "depth,normal,visibility,irradiance")
         attributes, _, values = read_exr(self.path / "a.exr")
         to_camera = struct.unpack("<16f", attributes["worldToCamera"])
@@ -132,7 +132,7 @@ class ExrTest(unittest.TestCase):
         except ImportError:
             self.skipTest("OpenImageIO (package python3-openimageio) is not here: only our reader was asked")
         for compression in ("zip", "piz"):
-            self.draw("--exr-compression", compression)
+            self.draw("--format", compression)
             buffer = oiio.ImageBuf(str(self.path / "03.exr"))
             read = dict(zip(buffer.spec().channelnames, range(buffer.nchannels)))
             if compression == "zip":
@@ -150,7 +150,7 @@ class ExrTest(unittest.TestCase):
         """A PNG shows the same means, but for pixels with a sample that is brighter than white, which counts as white."""
         for exr_type, off in (("float", 0), ("half", 1)):
             arguments = ["--tone", "none", "--antialias", 16]
-            render(*arguments, "-o", self.path / "a.exr", "--exr-type", exr_type)
+            render(*arguments, "-o", self.path / "a.exr", "--format", exr_type)
             _, kinds, values = read_exr(self.path / "a.exr")
             self.assertEqual(kinds, {"R": exr_type, "G": exr_type, "B": exr_type})
             self.assertLess(max(max(values[c]) for c in "RGB"), 1)
@@ -162,7 +162,7 @@ class ExrTest(unittest.TestCase):
 
     def test_bright_samples_are_not_clamped(self):
         """An edge between 0 and 9 is not what one between 0 and 1 is."""
-        arguments = ["--shadows", "none", "--exr-type", "float", "--antialias", 16]
+        arguments = ["--shadows", "none", "--format", "float", "--antialias", 16]
         render(*arguments, "--set-light", "0 intensity=100", "-o", self.path / "a.exr")
         render(*arguments, "--set-light", "0 intensity=100000", "-o", self.path / "b.exr")
         a, b = (read_exr(self.path / name)[2]["G"] for name in ("a.exr", "b.exr"))
@@ -178,7 +178,7 @@ class ExrTest(unittest.TestCase):
         render("-o", name, "--frames", "0:2", "--resume")
         again = {i: (self.path / f"{i:02}.exr").stat().st_mtime_ns for i in range(3)}
         self.assertEqual([times[i] == again[i] for i in range(3)], [True, False, True])
-        other = run("render", SCENE, "--size", "40x30", "-o", name, "--frames", "0:2", "--resume", "--exr-type",
+        other = run("render", SCENE, "--size", "40x30", "-o", name, "--frames", "0:2", "--resume", "--format",
                     "float")
         self.assertEqual(other.returncode, 1)
         self.assertIn("(half, zip)", other.stderr.decode())
@@ -192,7 +192,7 @@ class ExrTest(unittest.TestCase):
                                  (["-o", "a.jpg"], ".png or .exr"),
                                  (["-o", "##_##.png"], "expected one frame number"),
                                  (["-o", "-", "--resume"], "--resume looks for what was written"),
-                                 (["-o", "a.png", "--pipe-format", "png"], "expected -o -"),
+                                 (["-o", "a.png", "--format", "png"], "expected -o -"),
                                  (["-o", "no/such/a.exr"], "cannot make the folder")):
             done = run("render", SCENE, *arguments, cwd=self.path)
             text = done.stderr.decode()
@@ -245,7 +245,7 @@ class CompareTest(unittest.TestCase):
     def test_files_of_each_kind(self):
         render("-o", self.path / "a.exr", "--aov", "depth,normal", "--tone", "none", "--antialias", 1)
         render("-o", self.path / "b.exr", "--aov", "depth,normal", "--tone", "none", "--antialias", 1, "--light", 0,
-               "--exr-compression", "piz", "--set-light", "0 intensity=40")
+               "--format", "piz", "--set-light", "0 intensity=40")
         render("-o", self.path / "a.png", "--tone", "none", "--antialias", 1)
         self.assertEqual(self.numbers("a.exr", "a.exr"), (0, 0, math.inf, 0))
         code, rms, _, found = self.numbers("a.exr", "b.exr")
@@ -277,7 +277,7 @@ class PipeTest(unittest.TestCase):
         piped = run("render", SCENE, *self.COMMAND, "-o", "-")
         self.assertEqual(piped.stdout, b"".join(files))
         self.assertIn(b"4 of 4 frames", piped.stderr)
-        raw = run("render", SCENE, *self.COMMAND, "-o", "-", "--pipe-format", "rgb24")
+        raw = run("render", SCENE, *self.COMMAND, "-o", "-", "--format", "rgb24")
         self.assertEqual(list(raw.stdout), [value for data in files for value in read_png(data)[1]])
 
     def test_a_closed_pipe_ends_it(self):
@@ -292,7 +292,7 @@ class PipeTest(unittest.TestCase):
     def test_a_pipe_that_nobody_reads_can_be_stopped(self):
         reader, writer = os.pipe()
         with subprocess.Popen([PROGRAM, "render", SCENE, "--size", "640x480", "--frames", "all", "-o", "-",
-                               "--pipe-format", "rgb24", "--quiet"], stdout=writer, stderr=subprocess.PIPE) as program:
+                               "--format", "rgb24", "--quiet"], stdout=writer, stderr=subprocess.PIPE) as program:
             os.close(writer)
             os.read(reader, 1)  # it began to write, and the pipe is full soon
             time.sleep(0.5)

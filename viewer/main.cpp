@@ -6,9 +6,12 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <span>
 #include <string>
 
 #include "commands/command.h"
+#include "options/options_page.h"
+#include "options/setting_options.h"
 #include "shell/console.h"
 #include "shell/exit_codes.h"
 #include "shell/last_words.h"
@@ -45,6 +48,18 @@ int flush_output(int code, int on_failure = failure) {
   return report("cannot write standard output: no space left, or its reader is gone", on_failure);
 }
 
+/// " (did you mean --size?)" where an option was given that the command does not have.
+std::string nearest_option(const CLI::App& program) {
+  if (program.get_subcommands().empty()) return "";
+  return tenebra::viewer::did_you_mean(*program.get_subcommands().front());
+}
+
+void warn_of_old_names(const CLI::App& program, std::span<char* const> arguments) {
+  for (const CLI::App* command : program.get_subcommands())
+    if (!tenebra::viewer::is_quiet(*command))
+      tenebra::viewer::print_warnings(tenebra::viewer::outdated_uses(*command, arguments));
+}
+
 int parse_and_run(CLI::App& program, Run& run, int argc, char** argv) {
   const auto failure_code = [&] { return program.got_subcommand("compare") ? comparison_failure : failure; };
   try {
@@ -52,6 +67,9 @@ int parse_and_run(CLI::App& program, Run& run, int argc, char** argv) {
   } catch (const CLI::CallForHelp&) {
     // The help of the command that was asked about; CLI11 descends to it.
     tenebra::viewer::print_out("{}", program.help());
+    return flush_output(0);
+  } catch (const CLI::CallForAllHelp&) {
+    tenebra::viewer::print_out("{}", tenebra::viewer::paper_help(*program.get_subcommands().front()));
     return flush_output(0);
   } catch (const CLI::CallForVersion& version) {
     tenebra::viewer::print_out("{}\n", version.what());
@@ -61,8 +79,9 @@ int parse_and_run(CLI::App& program, Run& run, int argc, char** argv) {
     if (named && program.get_subcommands().empty()) {
       return report(fmt::format("unknown command '{}', expected {}", argv[1], commands), failure);
     }
-    return report(tenebra::viewer::sentence_of(error), failure_code());
+    return report(tenebra::viewer::sentence_of(error) + nearest_option(program), failure_code());
   }
+  warn_of_old_names(program, {argv, static_cast<std::size_t>(argc)});
   if (!run) return report(fmt::format("give a command: {} (see tenebra --help)", commands), failure);
   try {
     const auto code = run();
@@ -99,6 +118,13 @@ int main(int argc, char** argv) {
     tenebra::viewer::add_log_command(program, run);
     tenebra::viewer::add_verify_command(program, run);
     tenebra::viewer::add_trade_command(program, run);
+    const auto print_page = [&run] {
+      run = []() -> tenebra::Expected<int> {
+        tenebra::viewer::print_out("{}", tenebra::viewer::options_page());
+        return 0;
+      };
+    };
+    program.add_flag_callback("--options-page", print_page)->group("");  // for docs/options.md
     return parse_and_run(program, run, argc, argv);
   } catch (const std::exception& error) {
     if (!tenebra::viewer::is_memory_failure(error))

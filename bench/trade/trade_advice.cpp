@@ -6,7 +6,7 @@
 #include <functional>
 #include <optional>
 
-#include "render/quality.h"
+#include "settings/quality.h"
 
 namespace tenebra::bench {
 namespace {
@@ -78,12 +78,14 @@ std::string preset_section() {
       "\n"
       "| preset | soft shadows | ambient occlusion (`--ao adaptive`) | with `--ao field` |\n"
       "|---|---|---|---|\n";
-  for (const render::Quality quality : render::qualities) {
-    const render::QualitySettings q = render::quality_settings(quality);
-    const std::string soft = q.soft_error > 0 ? fmt::format("`--soft-error {}`", q.soft_error) : "exact";
-    const std::string scale = q.ao_downscale == 1 ? "" : fmt::format(" --ao-downscale {}", q.ao_downscale);
-    text += fmt::format("| `{}` | {} | `--ao-error {}` | `--ao-rays {}{}` |\n", render::quality_name(quality),
-                        soft, q.ao_error, q.ao_rays, scale);
+  for (const settings::Quality quality : settings::qualities) {
+    const render::RenderSettings q = settings::quality_settings(quality);
+    const std::string soft =
+        q.soft.error_255 > 0 ? fmt::format("`--soft-error {}`", q.soft.error_255) : "exact";
+    const std::string scale =
+        q.ao.downscale == 1 ? "" : fmt::format(" --paper ao-downscale={}", q.ao.downscale);
+    text += fmt::format("| `{}` | {} | `--ao-error {}` | `--ao-rays {}{}` |\n",
+                        settings::quality_name(quality), soft, q.ao.error_255, q.ao.rays, scale);
   }
   return text +
          "\n"

@@ -30,8 +30,8 @@ Expected<LoadedScene::Wish> LoadedScene::wish_of(const std::string& arguments) c
     return tl::unexpected(parsed.error());
   viewer::settle_quality(*command, wish.method);
   if (!wish.method.terminator) wish.method.terminator = render::Terminator::flat;  // as with any mask
-  if (auto good = viewer::check_scene_options(wish.scene); !good) return tl::unexpected(good.error());
-  if (auto good = viewer::check_method_options(wish.method); !good) return tl::unexpected(good.error());
+  if (auto good = viewer::check_scene_settings(wish.scene); !good) return tl::unexpected(good.error());
+  if (auto good = viewer::check_method_settings(wish.method); !good) return tl::unexpected(good.error());
   if (auto good = viewer::check_aovs(wish.aovs, wish.method.render); !good)
     return tl::unexpected(good.error());
   return wish;
@@ -44,7 +44,7 @@ Expected<render::RenderSettings> LoadedScene::settings_of(const Wish& wish) {
     display_.exposures = *exposures;
   }
   render::RenderSettings settings =
-      viewer::method_settings(wish.method, wish.scene.size.value_or(staged().size), display_);
+      viewer::render_settings(wish.method, wish.scene.size.value_or(staged().size), display_);
   settings.aovs = wish.aovs;
   return settings;
 }

@@ -70,7 +70,7 @@ def test_the_values_of_the_programs_files(name, frame, shadows, tmp_path):
     path, file = SCENES / f"{name}.glb", tmp_path / "frame.exr"
     subprocess.run([PROGRAM, "render", path, "--frames", str(frame), "--size", "%dx%d" % SIZE, "--raster", "cpu",
                     "--shadows", shadows, "--ao", "adaptive", "--antialias", "1", "--terminator", "flat", "--quiet",
-                    "--aov", ",".join(WORDS), "--exr-type", "float", "-o", file], check=True)
+                    "--aov", ",".join(WORDS), "--format", "float", "-o", file], check=True)
     stored = read_exr(file)
     scene = tenebra.Scene.load(path)
     drawn = scene.render(frame, SIZE, shadows=shadows, ao="adaptive", antialias=1, linear=True, aov=WORDS)

@@ -39,4 +39,10 @@ struct SceneSettings {
   stage::SceneEdits edits;
 };
 
+/// The settings for another file in place of this one: those that concern no part of a scene stay.
+SceneSettings settings_for(const std::string& file, const SceneSettings& before);
+
+/// What single settings cannot check: combinations.
+Expected<void> check_scene_settings(const SceneSettings& scene);
+
 }  // namespace tenebra::settings

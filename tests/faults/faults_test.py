@@ -36,12 +36,12 @@ CALLS = [("open", errno.EIO, False), ("read", errno.EIO, False), ("read", errno.
          ("thread", errno.EAGAIN, False)]
 
 METHODS = {
-    "hard": [], "cone tree": ["--variant", "PreciseSEATP"], "none": ["--shadows", "none", "--antialias", "1"],
+    "hard": [], "cone tree": ["--paper", "variant=PreciseSEATP"], "none": ["--shadows", "none", "--antialias", "1"],
     "soft": ["--shadows", "soft", "--light-size", "4%"],
-    "bsp": ["--shadows", "soft", "--light-size", "4%", "--soft-solver", "bsp"],
-    "clip": ["--shadows", "soft", "--light-size", "4%", "--soft-solver", "clip"],
+    "bsp": ["--shadows", "soft", "--light-size", "4%", "--paper", "soft-solver=bsp"],
+    "clip": ["--shadows", "soft", "--light-size", "4%", "--paper", "soft-solver=clip"],
     "soft error": ["--shadows", "soft", "--light-size", "4%", "--soft-error", "4"],
-    "adaptive": ["--ao", "adaptive"], "field": ["--ao", "field", "--ao-rays", "4", "--ao-downscale", "2"],
+    "adaptive": ["--ao", "adaptive"], "field": ["--ao", "field", "--ao-rays", "4", "--paper", "ao-downscale=2"],
 }
 
 

@@ -3,11 +3,12 @@
 
 #include "fuzz/input_file.h"
 #include "options/config_file.h"
-#include "options/option_values.h"
+#include "settings/values.h"
 #include "shell/command_line.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   using namespace tenebra::viewer;
+  using namespace tenebra::settings;
   static const tenebra::fuzz::InputFile input(".cfg");
   CLI::App program;
   bool quiet = false;

@@ -3,12 +3,12 @@
 #include <sstream>
 
 #include "fuzz/input_file.h"
-#include "options/edit_texts.h"
+#include "settings/edit_texts.h"
 
 namespace {
 
-using namespace tenebra::viewer;
-namespace stage = tenebra::stage;
+using namespace tenebra;
+using namespace tenebra::settings;
 
 tenebra::Expected<void> parse(const std::string& option, const std::string& value, stage::SceneEdits& edits) {
   if (option == "--set-light") return parse_light_edit(value, edits.lights);

@@ -117,7 +117,7 @@ TEST(Tone, IsNeutralForLinearColoursAndNoneForDisplayValues) {
   viewer::MethodOptions options;
   options.tone = shade::Tone::aces;
   EXPECT_EQ(viewer::tone_of(options, Transfer::display), shade::Tone::aces);
-  EXPECT_EQ(viewer::method_settings(options, {8, 8}, {}).tone, shade::Tone::aces);
+  EXPECT_EQ(viewer::render_settings(options, {8, 8}, {}).tone, shade::Tone::aces);
 }
 
 }  // namespace

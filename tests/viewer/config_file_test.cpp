@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "options/choices.h"
-#include "options/nearest_word.h"
+#include "settings/choices.h"
+#include "settings/nearest_word.h"
 #include "viewer/viewer_test_scene.h"
 
 namespace tenebra::testing {
@@ -49,13 +49,22 @@ TEST(ConfigFile, DoesNotWaitForAPipe) {
 TEST(Words, MayBeWrittenInAnyCase) {
   const TemporaryFolder folder;
   const std::string scene = write_moving_scene(folder);
-  const auto result =
-      tenebra({"render",     scene,          "--size",     "20x10",  "--frames",  "0",
-               "--variant",  "preciseSEATP", "--simd",     "Scalar", "--shadows", "Hard",
-               "--light",    "ALL",          "--cull",     "NONE",   "--raster",  "CPU",
-               "--tone",     "Aces",         "--quality",  "Fast",   "--floor",   "Auto",
-               "--transfer", "sRGB",         "--exposure", "AUTO",   "-o",        folder / "a.png",
-               "--quiet"});
+  const auto result = tenebra({"render",     scene,
+                               "--size",     "20x10",
+                               "--frames",   "0",
+                               "--paper",    "variant=preciseSEATP",
+                               "--simd",     "Scalar",
+                               "--shadows",  "Hard",
+                               "--light",    "ALL",
+                               "--paper",    "cull=NONE",
+                               "--raster",   "CPU",
+                               "--tone",     "Aces",
+                               "--quality",  "Fast",
+                               "--floor",    "Auto",
+                               "--transfer", "sRGB",
+                               "--exposure", "AUTO",
+                               "-o",         folder / "a.png",
+                               "--quiet"});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(refusal(folder, "shadows = SOFT\nlight-size = 1\nquiet = true\n"), "");
 }

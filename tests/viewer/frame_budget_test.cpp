@@ -166,8 +166,8 @@ TEST(FrameBudget, HasNoErrorBelowThoseOfQuality) {
   options.render.ao.mode = AoMode::adaptive;
   EXPECT_EQ(budget_ladder(options).front(), (BudgetErrors{0, 0.5}));
   EXPECT_EQ(budget_ladder(options).back(), (BudgetErrors{16, 16}));
-  options.quality = render::Quality::fast;
-  render::apply_quality(*options.quality, options.render);
+  options.quality = settings::Quality::fast;
+  settings::apply_quality(*options.quality, options.render);
   EXPECT_EQ(budget_ladder(options).front(), (BudgetErrors{4, 5}));
   options.render.shadows = render::ShadowMode::hard;
   EXPECT_EQ(budget_ladder(options).front(), (BudgetErrors{0, 5}));

@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "io/image.h"
+#include "settings/tables.h"
 #include "viewer/viewer_test_scene.h"
 
 namespace tenebra::testing {
@@ -23,64 +24,72 @@ TEST(Program, TeachesWithHelp) {
   }
 }
 
-TEST(Program, ExplainsEveryOptionOfRender) {
-  const std::string help = tenebra({"render", "--help"}).output;
-  for (const char* option : {"--frames",
-                             "--time",
-                             "--fps",
-                             "--clip",
-                             "--size",
-                             "--shadows",
-                             "--variant",
-                             "--samples",
-                             "--cull",
-                             "--light",
-                             "--scene",
-                             "--camera",
-                             "--eye",
-                             "--look-at",
-                             "--up",
-                             "--fov",
-                             "--threads",
-                             "--simd",
-                             "--context",
-                             "--raster",
-                             "--exposure",
-                             "--tone",
-                             "--no-cast",
-                             "--cone-sides",
-                             "--cutout-limit",
-                             "--transfer",
-                             "--environment",
-                             "-o",
-                             "--mask",
-                             "--log",
-                             "--trace",
-                             "--quiet",
-                             "--config",
-                             "--light-size",
-                             "--light-facing",
-                             "--emissive-lights",
-                             "--soft-solver",
-                             "--soft-grouping",
-                             "--soft-choice",
-                             "--soft-precision",
-                             "--soft-points",
-                             "--soft-error",
-                             "--quality",
-                             "--ao",
-                             "--ao-at",
-                             "--ao-layout",
-                             "--ao-rays",
-                             "--ao-downscale",
-                             "--ao-distance",
-                             "--ao-positions",
-                             "--ao-directions",
-                             "--ao-bits",
-                             "--ao-deforming",
-                             "--ao-cache"}) {
-    EXPECT_NE(help.find(option), std::string::npos) << option;
+/// Names that follow "  --" or ", --" at the start of lines.
+std::vector<std::string> options_in(const std::string& help) {
+  std::vector<std::string> names;
+  for (std::size_t at = 0; (at = help.find("\n  -", at)) != std::string::npos; at += 1) {
+    const std::size_t begin = at + 3, end = help.find_first_of(" \n", begin);
+    names.push_back(help.substr(begin, end - begin));
   }
+  return names;
+}
+
+TEST(Program, ExplainsEverySettingOfRender) {
+  const std::string help = tenebra({"render", "--help"}).output,
+                    paper = tenebra({"render", "--help-paper"}).output;
+  const auto expect = [&](const settings::About& about) {
+    const bool of_paper = about.audience == settings::Audience::paper;
+    const std::string name =
+        of_paper ? fmt::format("  {}=", about.name) : fmt::format("\n  --{} ", about.name);
+    EXPECT_EQ((of_paper ? paper : help).find(name) != std::string::npos,
+              settings::given_as(about) == fmt::format("--{} ", about.name) || of_paper)
+        << about.name;
+    if (of_paper) EXPECT_EQ(help.find(fmt::format("\n  --{} ", about.name)), std::string::npos) << about.name;
+  };
+  for (const auto& setting : settings::scene_table()) expect(setting);
+  for (const auto& setting : settings::method_table()) expect(setting);
+  EXPECT_NE(help.find("Used most:"), std::string::npos) << help;
+}
+
+TEST(Program, HelpOfRenderIsShort) {
+  const std::vector<std::string> names = options_in(tenebra({"render", "--help"}).output);
+  EXPECT_GT(names.size(), 40u);
+  EXPECT_LT(names.size(), 60u);
+}
+
+TEST(Program, SuggestsTheNearestOption) {
+  const auto said = [](const std::vector<std::string>& arguments) { return tenebra(arguments).errors; };
+  const auto expect = [&](const std::vector<std::string>& arguments, const char* text) {
+    EXPECT_NE(said(arguments).find(text), std::string::npos) << said(arguments);
+  };
+  expect({"render", "a.glb", "--siez", "40x30"}, "--siez (did you mean --size?)");
+  expect({"view", "--shadow=soft"}, "(did you mean --shadows?)");
+  expect({"render", "a.glb", "--paper", "vairant=Tiles"}, "(did you mean variant?)");
+  expect({"render", "a.glb", "--paper", "variant"},
+         "--paper: found variant, expected KEY=VALUE with one of variant, samples");
+  expect({"render", "a.glb", "--paper", "variant=Fast"},
+         "--paper variant: found Fast, expected Tiles, Precise");
+}
+
+TEST(Program, TakesOldNamesAndSaysTheNewOnes) {
+  const TemporaryFolder folder;
+  const std::string scene = write_moving_scene(folder);
+  const auto run = [&](std::vector<std::string> more) {
+    more.insert(more.begin(),
+                {"render", scene, "--size", "16x12", "-o", "none", "--log", folder / "log.csv"});
+    const auto result = tenebra(more);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return result.errors + read_text(folder / "log.csv");
+  };
+  const std::string old_name = run({"--paper", "variant=Spheres"}),
+                    new_name = run({"--paper", "variant=spheres"});
+  EXPECT_NE(old_name.find("warning: --variant is --paper variant=VALUE now"), std::string::npos) << old_name;
+  EXPECT_EQ(new_name.find("warning"), std::string::npos) << new_name;
+  for (const std::string& log : {old_name, new_name})
+    EXPECT_NE(log.find("variant: Spheres"), std::string::npos) << log.substr(0, 4000);
+  write_text(folder / "my.cfg", "paper = [variant=Precise, samples=depth]\n");
+  EXPECT_NE(run({"--config", folder / "my.cfg", "--paper", "variant=Spheres"}).find("variant: Spheres"),
+            std::string::npos);
 }
 
 TEST(Program, SaysItsVersion) {
@@ -135,7 +144,8 @@ std::vector<BadUse> bad_uses() {
       {{"compare", "a", "b", "--threshold", "256"}, "--threshold"},
       {{"compare", "SCENE", "SCENE"}, "moving.gltf"},
       {{"render", "SCENE", "--quality"}, "--quality: found no value, expected fast|balanced|exact"},
-      {{"render", "SCENE", "--soft-points", ""}, "--soft-points: found nothing, expected 1 to 4096"},
+      {{"render", "SCENE", "--paper", "soft-points="},
+       "--paper soft-points: found nothing, expected 1 to 4096"},
   };
   const std::vector<std::vector<std::string>> options{{"--size", "0x10"},
                                                       {"--size", "16385x16"},
@@ -170,17 +180,17 @@ std::vector<BadUse> bad_uses() {
                                                       {"--threads", "-1"},
                                                       {"--threads", "1025"},
                                                       {"--threads", "two"},
-                                                      {"--variant", "Fast"},
+                                                      {"--paper", "variant=Fast"},
                                                       {"--simd", "mmx"},
                                                       {"--context", "glx"},
                                                       {"--shadows", "soft-ish"},
-                                                      {"--samples", "both"},
-                                                      {"--cull", "back"},
+                                                      {"--paper", "samples=both"},
+                                                      {"--paper", "cull=back"},
                                                       {"--exposure", "0"},
                                                       {"--exposure", "-1"},
                                                       {"--exposure", "1e39"},
                                                       {"--no-cast", "nothing"},
-                                                      {"--cone-sides", "2"},
+                                                      {"--paper", "cone-sides=2"},
                                                       {"--transfer", "linear"},
                                                       {"--environment", "missing.hdr"},
                                                       {"--eye", "0,0", "--look-at", "0,0,1"},
@@ -209,28 +219,28 @@ std::vector<BadUse> bad_uses() {
                                                       {"--light-size", "1 %"},
                                                       {"--light-size", "1e39"},
                                                       {"--light-size", "nan"},
-                                                      {"--light-facing", "0,0,0"},
-                                                      {"--light-facing", "up", "--light-size", "1"},
-                                                      {"--soft-solver", "best"},
-                                                      {"--soft-grouping", "pixel"},
-                                                      {"--soft-choice", "first"},
-                                                      {"--soft-precision", "double"},
-                                                      {"--samples", "depth", "--shadows", "soft"},
-                                                      {"--samples", "depth", "--ao", "rays"},
-                                                      {"--cull", "front", "--shadows", "soft"},
+                                                      {"--light-size", "facing=0,0,0"},
+                                                      {"--light-size", "facing=up", "--light-size", "1"},
+                                                      {"--paper", "soft-solver=best"},
+                                                      {"--paper", "soft-grouping=pixel"},
+                                                      {"--paper", "soft-choice=first"},
+                                                      {"--paper", "soft-precision=double"},
+                                                      {"--paper", "samples=depth", "--shadows", "soft"},
+                                                      {"--paper", "samples=depth", "--ao", "rays"},
+                                                      {"--paper", "cull=front", "--shadows", "soft"},
                                                       {"--ao", "yes"},
-                                                      {"--ao-at", "faces"},
-                                                      {"--ao-layout", "grid"},
+                                                      {"--paper", "ao-at=faces"},
+                                                      {"--paper", "ao-layout=grid"},
                                                       {"--ao-rays", "0"},
                                                       {"--ao-distance", "0"},
                                                       {"--ao-distance", "far"},
-                                                      {"--ao-positions", "-1"},
-                                                      {"--ao-directions", "32x"},
-                                                      {"--ao-directions", "32x32x32"},
-                                                      {"--ao-directions", "-8x-8"},
-                                                      {"--ao-directions", "100000x100000"},
-                                                      {"--ao-bits", "16"},
-                                                      {"--ao-deforming", "maybe"},
+                                                      {"--paper", "ao-positions=-1"},
+                                                      {"--paper", "ao-directions=32x"},
+                                                      {"--paper", "ao-directions=32x32x32"},
+                                                      {"--paper", "ao-directions=-8x-8"},
+                                                      {"--paper", "ao-directions=100000x100000"},
+                                                      {"--paper", "ao-bits=16"},
+                                                      {"--paper", "ao-deforming=maybe"},
                                                       {"--ao-cache", ""},
                                                       {"--config", "no.cfg"},
                                                       {"--log"},

@@ -33,13 +33,13 @@ TEST_F(ViewWindow, ShowsTheBitsOfRender) {
   const std::vector<std::vector<std::string>> methods{
       {"--shadows", "none"},
       {"--shadows", "hard"},
-      {"--shadows", "hard", "--variant", "Spheres", "--exposure", "2"},
+      {"--shadows", "hard", "--paper", "variant=Spheres", "--exposure", "2"},
       {"--shadows", "soft", "--light-size", "1x0.5"},
       {"--shadows", "soft", "--set-light", "1 size=1x0.5 move=0,0.5,0.25 intensity=2", "--set-light",
        "0 on=0"},
       {"--shadows", "hard", "--ao", "rays", "--ao-rays", "16", "--eye", "3,4,5", "--look-at", "0,0,0"},
-      {"--shadows", "none", "--ao", "field", "--ao-positions", "100", "--ao-directions", "64", "--ao-cache",
-       "none"}};
+      {"--shadows", "none", "--ao", "field", "--paper", "ao-positions=100", "--paper", "ao-directions=64",
+       "--ao-cache", "none"}};
   for (const auto& method : methods) {
     std::vector<std::string> arguments{scene, "--time", "2.125", "--size", "400x300"};
     arguments.insert(arguments.end(), method.begin(), method.end());

@@ -29,16 +29,16 @@ TEST_F(ViewWindow, FlipsEveryMethod) {
   EXPECT_EQ(soft["rays"], 0);
   EXPECT_GT(soft["soft_groups"], 0);
   session.photograph("method_soft");
-  shows("solver.bsp", "--soft-solver bsp");
-  shows("solver.clip", "--soft-solver clip");
-  shows("grouping.triangle", "--soft-grouping triangle");
-  shows("precision.reference", "--soft-precision reference");
+  shows("solver.bsp", "--paper soft-solver=bsp");
+  shows("solver.clip", "--paper soft-solver=clip");
+  shows("grouping.triangle", "--paper soft-grouping=triangle");
+  shows("precision.reference", "--paper soft-precision=reference");
   EXPECT_GT(shows("ao.rays", "--ao rays")["ao_points"], 0);
   EXPECT_GT(shows("ao.adaptive", "--ao adaptive")["ao_points"], 0);
   EXPECT_GT(shows("ao.field", "--ao field")["ao_points"], 0);
   session.photograph("method_ao");
   const Json fast =
-      shows("quality.fast", "--soft-error 4 --ao field --ao-error 5 --ao-rays 16 --ao-downscale 2");
+      shows("quality.fast", "--soft-error 4 --ao field --ao-error 5 --ao-rays 16 --paper ao-downscale=2");
   EXPECT_GT(fast["soft_groups"], 0) << "exact where few triangles are in the way";
   EXPECT_GT(shows("quality.exact", "--ao field --ao-error 1 --ao-rays 256")["soft_groups"], 0);
   session.click("quality.balanced");
@@ -46,7 +46,7 @@ TEST_F(ViewWindow, FlipsEveryMethod) {
   session.click("ao.none");
   session.click("shadows.hard");
   session.wait_for_picture();
-  shows("samples.depth", "--samples depth");
+  shows("samples.depth", "--paper samples=depth");
   session.click("samples.ids");
   session.wait_for_picture();
 

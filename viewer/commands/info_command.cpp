@@ -10,10 +10,10 @@
 #include "commands/gl_survey.h"
 #include "options/memory_option.h"
 #include "options/method_options.h"
-#include "options/option_values.h"
 #include "options/scene_options.h"
 #include "session/scene_summary.h"
 #include "session/staged_scene.h"
+#include "settings/values.h"
 #include "shell/console.h"
 #include "shell/memory_limit.h"
 #include "stage/additions.h"
@@ -36,8 +36,7 @@ constexpr const char* info_examples =
     "frames, they are counted at --fps.";
 
 struct InfoOptions {
-  std::string scene;
-  formats::ImportOptions import;
+  SceneOptions scene;
   double fps = 30.0;
   std::optional<int> memory_mb;
   bool meter = false;
@@ -151,7 +150,7 @@ Json shown_of(const Scene& scene) {
 
 Json describe(const Scene& scene, const InfoOptions& options) {
   const session::SceneSummary summary = session::summarize_scene(scene);
-  Json json{{"file", options.scene}, {"name", scene.name}, {"counts", counts_of(scene, summary)}};
+  Json json{{"file", options.scene.file}, {"name", scene.name}, {"counts", counts_of(scene, summary)}};
   json["bounds_m"] = nullptr;
   if (summary.bounds)
     json["bounds_m"] = {{"low", list(summary.bounds->low)}, {"high", list(summary.bounds->high)}};
@@ -230,9 +229,7 @@ void add_changes(Scene& scene, Json& json) {
 /// What --exposure auto would be.
 Expected<void> add_metered(const InfoOptions& options, Json& json) {
   if (!options.meter) return {};
-  SceneOptions of_scene;
-  of_scene.file = options.scene;
-  of_scene.import = options.import;
+  SceneOptions of_scene = options.scene;
   of_scene.meter_exposure = true;
   const auto staged = session::stage_scene(of_scene);
   if (!staged) return tl::unexpected(staged.error());
@@ -244,9 +241,9 @@ Expected<void> add_metered(const InfoOptions& options, Json& json) {
 
 Expected<int> info(const InfoOptions& options) {
   if (options.gl) return print_gl_survey(options.json);
-  if (options.scene.empty()) return base::fail("SCENE is required, or --gl");
+  if (options.scene.file.empty()) return base::fail("SCENE is required, or --gl");
   if (auto limited = limit_memory(options.memory_mb); !limited) return tl::unexpected(limited.error());
-  auto scene = formats::import_scene(options.scene, options.import);
+  auto scene = formats::import_scene(options.scene.file, options.scene.import);
   if (!scene) return tl::unexpected(scene.error());
   stage::leave_out_covers(*scene);
   Json json = describe(*scene, options);
@@ -268,10 +265,8 @@ void add_info_command(CLI::App& program, Run& run) {
       add_command(program, "info", "Say what a scene contains: counts, bounds, lights, cameras, animations");
   const auto options = std::make_shared<InfoOptions>();
   set_examples(command, info_examples);
-  add_text(command, "SCENE", options->scene, "Scene file: .gltf .glb .aff .nff .obj");
-  add_text(command, "--scene", options->import.scene, "glTF: which scene of the file, by name or number")
-      .type_name("NAME|N");
-  add_texture_path(command, options->import);
+  add_text(command, "SCENE", options->scene.file, "Scene file: .gltf .glb .aff .nff .obj");
+  add_import_options(command, options->scene);
   add_flag(command, "--meter", options->meter, "Also measure what --exposure auto is, with each tone");
   add_flag(command, "--json", options->json, "Print JSON");
   add_flag(command, "--gl", options->gl, "Say which OpenGL this machine has, in place of a scene");

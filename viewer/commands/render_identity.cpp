@@ -8,24 +8,21 @@
 #include <string_view>
 
 #include "io/file_hash.h"
+#include "settings/tables.h"
 
 namespace tenebra::viewer {
 namespace {
 
-/// Settings of a log that leave every bit of every picture as it is.
-constexpr std::array<std::string_view, 13> without_effect{"machine",
-                                                          "threads",
-                                                          "simd",
-                                                          "LP_NUM_THREADS",
-                                                          "scene",
-                                                          "triangles",
-                                                          "dropped_non_finite",
-                                                          "frames",
-                                                          "ao_cache",
-                                                          "texture_path",
-                                                          "warning",
-                                                          "settings_hash",
-                                                          "note"};
+/// What a log says beside the settings and leaves every bit of every picture as it is.
+constexpr std::array<std::string_view, 9> without_effect{"machine",   "LP_NUM_THREADS",     "scene",
+                                                         "triangles", "dropped_non_finite", "frames",
+                                                         "warning",   "settings_hash",      "note"};
+
+bool has_effect(const std::string& name) {
+  if (std::find(without_effect.begin(), without_effect.end(), name) != without_effect.end()) return false;
+  const settings::About* about = settings::find_about(name);
+  return about == nullptr || about->affects == settings::Affects::picture;
+}
 
 /// Without folders: they may be named in several ways.
 std::string outputs_text(const RenderOptions& options) {
@@ -73,11 +70,10 @@ Expected<std::vector<render::LogSetting>> describe_sources(const RenderPlan& pla
   return list;
 }
 
-std::vector<render::LogSetting> identity_of(std::span<const render::LogSetting> settings) {
+std::vector<render::LogSetting> identity_of(std::span<const render::LogSetting> all) {
   std::vector<render::LogSetting> identity;
-  for (const render::LogSetting& setting : settings)
-    if (std::find(without_effect.begin(), without_effect.end(), setting.name) == without_effect.end())
-      identity.push_back(setting);
+  for (const render::LogSetting& setting : all)
+    if (has_effect(setting.name)) identity.push_back(setting);
   return identity;
 }
 

@@ -5,9 +5,9 @@
 #include "base/machine.h"
 #include "base/statistics.h"
 #include "commands/frame_budget.h"
-#include "options/choices.h"
-#include "options/edit_texts.h"
 #include "parallel/parallel.h"
+#include "settings/choices.h"
+#include "settings/edit_texts.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -52,54 +52,10 @@ double shadow_ms(const FrameTimings& t) {
          t.irradiance_ms + t.writeback_ms;
 }
 
-std::string light_size_text(const render::AreaLightSettings& lights) {
-  if (lights.size.x <= 0) return "as the scene has it";
-  return fmt::format("{}x{}{}", lights.size.x, lights.size.y, lights.percent_of_diagonal ? "%" : " m");
-}
-
 /// Only the BSP's bits depend on it, so any render can be resumed with more for the others.
 std::string soft_memory_text(const SoftShadowConfig& soft) {
   const std::string all = soft.memory_bytes ? fmt::format("{} MB", *soft.memory_bytes >> 20) : "the system's";
-  return soft_memory_mb(soft) ? all : fmt::format("{}, {} MB a tree", all, soft.tree_bytes >> 20);
-}
-
-void describe_soft(const render::RenderSettings& settings, std::vector<render::LogSetting>& list) {
-  const SoftShadowConfig& soft = settings.soft;
-  const render::AreaLightSettings& lights = settings.area_lights;
-  list.insert(
-      list.end(),
-      {{"soft_solver", choice_name(solver_choices, soft.solver)},
-       {"soft_grouping", choice_name(grouping_choices, soft.grouping)},
-       {"soft_choice", choice_name(occluder_choices, soft.choice)},
-       {"soft_precision", choice_name(precision_choices, soft.precision)},
-       {"soft_points", settings.soft_points == 0 ? "none" : fmt::format("{}", settings.soft_points)},
-       {"soft_error", soft.error_255 > 0 ? fmt::format("{}", soft.error_255) : "0, exact"},
-       {"light_size", light_size_text(lights)},
-       {"sun_size", lights.sun_deg ? fmt::format("{} degrees", *lights.sun_deg) : "as the scene has it"},
-       {"light_facing", lights.facing ? vector(*lights.facing) : "the scene's centre"},
-       {"light_emission", choice_name(emission_choices, lights.emission)},
-       {"emissive_lights", lights.emissive_quads ? "yes" : "no"}});
-  if (soft.solver == SoftSolver::bsp) list.push_back({"soft_memory", soft_memory_text(soft)});
-}
-
-void describe_ao(const AoConfig& ao, std::vector<render::LogSetting>& list) {
-  const std::string distance = ao.distance_m > 0 ? fmt::format("{} m", ao.distance_m) : "diagonal / 20";
-  if (ao.mode == AoMode::adaptive) {
-    list.insert(list.end(), {{"ao_error", fmt::format("{}", ao.error_255)}, {"ao_distance", distance}});
-    return;
-  }
-  list.insert(list.end(), {{"ao_at", choice_name(place_choices, ao.place)},
-                           {"ao_rays", fmt::format("{}", ao.rays)},
-                           {"ao_downscale", fmt::format("{}", ao.downscale)},
-                           {"ao_distance", distance}});
-  if (ao.mode != AoMode::field) return;
-  list.insert(list.end(), {{"ao_layout", choice_name(layout_choices, ao.layout)},
-                           {"ao_positions", fmt::format("{}", ao.positions)},
-                           {"ao_directions", fmt::format("{}", ao.directions)},
-                           {"ao_bits", fmt::format("{}", ao.bits)},
-                           {"ao_deforming", choice_name(deforming_choices, ao.deforming)},
-                           {"ao_cache", ao.cache.empty() ? "none" : ao.cache.string()},
-                           {"ao_memory", fmt::format("{} MB", ao.memory_mb)}});
+  return settings::soft_memory_mb(soft) ? all : fmt::format("{}, {} MB a tree", all, soft.tree_bytes >> 20);
 }
 
 std::string summary_row(std::string_view name, std::span<const TimedFrame> frames, auto value) {
@@ -114,23 +70,18 @@ std::string summary_row(std::string_view name, std::span<const TimedFrame> frame
 
 }  // namespace
 
-std::vector<render::LogSetting> describe_method(const render::RenderSettings& settings) {
-  const HardShadowConfig& hard = settings.hard;
-  std::vector<render::LogSetting> list{
-      {"shadows", choice_name(shadow_choices, settings.shadows)},
-      {"variant", std::string(variant_name(hard.variant))},
-      {"samples", choice_name(sample_choices, settings.samples)},
-      {"cull", choice_name(cull_choices, hard.cull_front)},
-      {"see_through", choice_name(see_through_choices, settings.see_through)},
-      {"terminator", choice_name(terminator_choices, settings.terminator)},
-      {"light", settings.light < 0 ? "all" : fmt::format("{}", settings.light)},
-      {"antialias", fmt::format("{}", settings.antialias)},
-      {"exposure", fmt::format("{}", settings.exposure)},
-      {"tone", choice_name(tone_choices, settings.tone)},
-      {"ao", choice_name(ao_choices, settings.ao.mode)},
-  };
-  if (settings.shadows == render::ShadowMode::soft) describe_soft(settings, list);
-  if (settings.ao.mode != AoMode::none) describe_ao(settings.ao, list);
+std::vector<render::LogSetting> describe_method(const MethodOptions& method) {
+  std::vector<render::LogSetting> list;
+  for (const auto& setting : settings::method_table()) {
+    const bool told = setting.name == "quality" || setting.name == "soft-memory" ||
+                      setting.name == "threads" ||
+                      setting.name == "simd";  // the first by what it stands for, the others below
+    if (told || !settings::is_used(setting.used, method.render)) continue;
+    list.push_back({settings::underscored(setting.name), setting.text(method)});
+  }
+  const SoftShadowConfig& soft = method.render.soft;
+  if (method.render.shadows == render::ShadowMode::soft && soft.solver == SoftSolver::bsp)
+    list.push_back({"soft_memory", soft_memory_text(soft)});
   return list;
 }
 
@@ -165,7 +116,8 @@ std::vector<render::LogSetting> describe_render(const RenderPlan& plan, const Re
       {"environment", environment_text(staged, options.scene)},
       {"added", added_text(staged.added)},
   };
-  for (render::LogSetting& setting : describe_method(settings)) list.push_back(std::move(setting));
+  for (render::LogSetting& setting : describe_method(settings::settled(options.method, settings)))
+    list.push_back(std::move(setting));
   if (options.budget_ms) {
     std::erase_if(list, [](const auto& s) { return s.name == "soft_error" || s.name == "ao_error"; });
     list.push_back({"budget", fmt::format("{} ms", *options.budget_ms)});

@@ -11,8 +11,8 @@
 
 namespace tenebra::viewer {
 
-/// The settings of shadows and ambient occlusion, of the methods that are on.
-std::vector<render::LogSetting> describe_method(const render::RenderSettings& settings);
+/// The settings of shadows and ambient occlusion, of the methods that are on; nothing is left open.
+std::vector<render::LogSetting> describe_method(const MethodOptions& method);
 
 /// Machine, OpenGL renderer, threads, vector instructions, scene and every setting, as the log's comment
 /// lines. `first_frame`: geometry of the first frame, for its counts.

@@ -10,11 +10,11 @@
 #include "commands/command.h"
 #include "io/output_file.h"
 #include "options/config_file.h"
-#include "options/edit_texts.h"
 #include "options/memory_option.h"
 #include "options/method_arguments.h"
 #include "options/raster_options.h"
 #include "options/scene_arguments.h"
+#include "settings/edit_texts.h"
 #include "shared/files_apart.h"
 #include "shell/console.h"
 #include "shell/memory_limit.h"
@@ -92,9 +92,9 @@ std::vector<PlannedFrame> spread_frames(const RenderPlan& plan, int first, int c
 
 /// The plan with frames and shadows chosen where the user left them open.
 Expected<RenderPlan> plan_trade(TradeOptions& options) {
-  if (auto checked = check_scene_options(options.render.scene); !checked)
+  if (auto checked = check_scene_settings(options.render.scene); !checked)
     return tl::unexpected(checked.error());
-  if (auto checked = check_method_options(options.render.method); !checked)
+  if (auto checked = check_method_settings(options.render.method); !checked)
     return tl::unexpected(checked.error());
   auto plan = plan_render(options.render);
   if (!plan) return plan;

@@ -11,12 +11,12 @@
 #include "commands/command.h"
 #include "commands/verify_report.h"
 #include "io/output_file.h"
-#include "options/choices.h"
 #include "options/config_file.h"
 #include "options/memory_option.h"
 #include "options/raster_options.h"
 #include "render/light_casters.h"
 #include "render/shadow_lights.h"
+#include "settings/choices.h"
 #include "shared/files_apart.h"
 #include "shared/render_plan.h"
 #include "shell/console.h"
@@ -36,7 +36,7 @@ constexpr const char* verify_examples =
     "Examples:\n"
     "  tenebra verify scenes/city.glb\n"
     "  tenebra verify scenes/city.glb --frames all --samples 20000 --report city.json\n"
-    "  tenebra verify kitchen.aff --frames 0:799:50 --variant PreciseSEATP\n"
+    "  tenebra verify kitchen.aff --frames 0:799:50 --paper variant=PreciseSEATP\n"
     "  tenebra verify scenes/court.glb --shadows soft --light-size 0.5 --samples 5000\n"
     "\n"
     "Draws hard shadow masks of all lights as tenebra render does, and computes what each sample's value "
@@ -48,7 +48,8 @@ constexpr const char* verify_examples =
     "With --shadows soft the visible fractions of lights with an area are checked: which triangles hide what "
     "is\n"
     "found exactly, the area that they leave with a bound. A fraction may be off by as much as is promised:\n"
-    "0.1/255, or 1e-6 with --soft-precision reference. The time of a sample grows with the square of its\n"
+    "0.1/255, or 1e-6 with --paper soft-precision=reference. The time of a sample grows with the square of "
+    "its\n"
     "occluders: those with more than 1000 are skipped, and counted.\n"
     "Exit code: 0 all are right, 1 failed (one sentence says why), 2 some are wrong, 130 or 143 stopped by\n"
     "a signal; what was checked until then is reported.";
@@ -209,7 +210,7 @@ Expected<void> check_report(const VerifyOptions& options, const RenderPlan& plan
 }
 
 Expected<int> verify(const VerifyOptions& options) {
-  if (auto checked = check_scene_options(options.render.scene); !checked)
+  if (auto checked = check_scene_settings(options.render.scene); !checked)
     return tl::unexpected(checked.error());
   if (auto limited = limit_memory(options.render.memory_mb); !limited) return tl::unexpected(limited.error());
   StopSignals stop(options.render.timeout_s, StopSignals::Start::at_once);
@@ -260,7 +261,6 @@ void add_verify_command(CLI::App& program, Run& run) {
   add_text(command, "--report", options->report, "File to write the result to; .json for programs")
       .type_name("FILE");
   add_tracer_options(command, options->render.method);
-  add_soft_tracer_options(command, options->render.method);
   add_raster_options(command, options->render.raster);
   add_memory_option(command, options->render.memory_mb);
   add_flag(command, "--quiet", options->render.quiet, "No progress and no warnings");

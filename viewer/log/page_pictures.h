@@ -6,7 +6,7 @@
 
 #include "io/image.h"
 #include "log/log_file.h"
-#include "options/output_pattern.h"
+#include "settings/output_pattern.h"
 
 namespace tenebra::viewer {
 

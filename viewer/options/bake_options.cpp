@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "base/fail.h"
-#include "options/choices.h"
+#include "settings/choices.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -52,49 +52,14 @@ Expected<glm::vec3> parse_ambient(const std::string& text) {
 }
 
 void add_light_options(CLI::App& command, BakeOptions& options) {
-  render::RenderSettings& render = options.method.render;
-  const AddedOption added[] = {
-      add_word<shadow_choices>(command, "--shadows", render.shadows,
-                               "hard: each light as a point; soft: with its area; none [hard]"),
-      add_value(command, "--light", render.light, parse_light,
-                "This light alone, by number, or with all [all]")
-          .type_name("N|all"),
-      add_value(command, "--ambient", options.ambient, parse_ambient,
-                "Ambient light, which --what both multiplies by openness\n"
-                "[the scene's]")
-          .type_name("R,G,B"),
-      add_value(command, "--light-size", options.method.light_size, parse_light_size,
-                "soft: turns point and spot lights into rectangles of this\nsize, in metres, or (4%) in "
-                "percent of the scene's diagonal")
-          .type_name("W[xH][%]"),
-      add_value(command, "--sun-size", render.area_lights.sun_deg, parse_sun_size,
-                "soft: diameter of directional lights, like 0.53 [as the\nscene has it]")
-          .type_name("DEGREES"),
-      add_flag(command, "--emissive-lights", render.area_lights.emissive_quads,
-               "soft: flat convex meshes with an emissive material are\nlights too"),
-      add_value(command, "--soft-error", render.soft.error_255, parse_soft_error,
-                "soft: the error aimed at, in 1/255 of white [0: exact]")
-          .type_name("E"),
-      add_soft_memory(command, render.soft,
-                      "soft: memory for candidates and lists of them, in MB; a\n"
-                      "light that needs more ends with a message [half of\n"
-                      "--memory, else what the system has]"),
-      add_value(command, "--ao-error", render.ao.error_255, parse_positive,
-                "The error of occlusion to aim at, RMS, in 1/255 [1]")
-          .type_name("E"),
-      add_value(command, "--ao-distance", render.ao.distance_m, parse_positive,
-                "Reach D in metres: occlusion is the mean of\nmax(0, 1 - d / D) over rays distributed by the "
-                "cosine to\nthe normal, each of which first meets a triangle at d\n[a twentieth of the "
-                "scene's diagonal]")
-          .type_name("D"),
-      add_value(command, "--threads", render.threads, parse_threads,
-                "Threads; the files are the same with any number\n[0: all cores]")
-          .type_name("N"),
-      add_value(command, "--simd", render.hard.simd, parse_simd,
-                "Vector instructions: auto, scalar, sse4, avx2, avx512 or, on\n"
-                "ARM, neon; the files are the same with each [auto]")
-          .type_name("LEVEL")};
-  for (const AddedOption option : added) option.group(bake_light_group);
+  add_value(command, "--ambient", options.ambient, parse_ambient,
+            "Ambient light, which --what both multiplies by openness\n"
+            "[the scene's]")
+      .type_name("R,G,B")
+      .group(bake_light_group);
+  add_settings(command, settings::method_table(), options.method,
+               {"shadows", "light", "light-size", "sun-size", "emissive-lights", "soft-error", "soft-memory",
+                "ao-error", "ao-distance", "threads", "simd"});
 }
 
 void add_map_options(CLI::App& command, BakeOptions& options) {
@@ -169,7 +134,7 @@ Expected<void> settle_bake_options(const CLI::App& command, BakeOptions& options
 render::RenderSettings bake_settings(const BakeOptions& options) {
   MethodOptions method = options.method;
   method.terminator = render::Terminator::flat;
-  render::RenderSettings settings = method_settings(method, {}, {});
+  render::RenderSettings settings = render_settings(method, {}, {});
   settings.ao.mode = options.content == BakeContent::light ? AoMode::none : AoMode::adaptive;
   return settings;
 }

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "io/input_file.h"
-#include "options/nearest_word.h"
+#include "options/setting_options.h"
+#include "settings/nearest_word.h"
+#include "shell/console.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -21,8 +23,13 @@ bool is_flag(const CLI::Option& option) {
 }
 
 /// Gives `option` the values of `item`, unless the command line gave it some.
-void apply(CLI::Option& option, const CLI::ConfigItem& item) {
-  if (!option.empty()) return;
+void apply(CLI::App& command, CLI::Option& option, CLI::ConfigItem item) {
+  const auto is_key = [&](const std::string& text) {
+    return read_key(command, option.get_name(), text, IfGiven::leave);
+  };
+  const bool keys_alone =
+      !item.inputs.empty() && std::erase_if(item.inputs, is_key) > 0 && item.inputs.empty();
+  if (!option.empty() || keys_alone) return;
   if (is_flag(option)) {
     option.add_result(option.get_flag_value(item.name, CLI::ConfigBase().to_flag(item)));
   } else if (option.get_expected_max() > 1) {
@@ -54,7 +61,7 @@ std::string unknown_key(CLI::App& command, const CLI::ConfigItem& item) {
   std::vector<std::string> known;
   for (const CLI::Option* option : command.get_options())
     for (const std::string& name : option->get_lnames())
-      if (option_of_key(command, name) != nullptr) known.push_back(name);
+      if (!option->get_group().empty() && option_of_key(command, name) != nullptr) known.push_back(name);
   return fmt::format("found the name '{}', expected the long name of an option of tenebra {}{}",
                      item.fullname(), command.get_name(), did_you_mean(nearest_word(item.name, known), "{}"));
 }
@@ -98,8 +105,9 @@ void read_config(CLI::App& command, const std::string& path) {
     CLI::Option* const option = option_of_key(*concerned, item.name);
     if (option == nullptr) refuse(unknown_key(*concerned, item));
     if (concerned != &command) continue;
+    if (is_outdated(*option) && !is_quiet(command)) print_warnings({outdated_sentence(item.name)});
     try {
-      apply(*option, item);
+      apply(command, *option, item);
     } catch (const CLI::Error& error) {
       refuse(error.what());
     }

@@ -1,6 +1,5 @@
 #include "options/memory_option.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 
 namespace tenebra::viewer {
@@ -8,24 +7,29 @@ namespace {
 
 constexpr int share_of_ao = 4, share_of_soft = 2;
 
-bool was_stated(const CLI::App& command, const char* name) {
-  const CLI::Option* const option = command.get_option_no_throw(name);  // bake lacks some
-  return option != nullptr && option->count() > 0;
-}
-
 }  // namespace
 
 AddedOption add_memory_option(CLI::App& command, std::optional<int>& memory_mb, const char* help) {
-  return add_value(command, "--memory", memory_mb, parse_at_least_one, help).type_name("MB");
+  const auto read = [&command, &memory_mb](const std::vector<std::string>& texts) -> Expected<void> {
+    for (const std::string& text : texts) {
+      if (read_key(command, "--memory", text, IfGiven::replace)) continue;
+      const auto mb = parse_at_least_one(text);
+      if (!mb) return tl::unexpected(mb.error());
+      memory_mb = *mb;
+    }
+    return {};
+  };
+  return add_texts(command, "--memory", read, wrapped(help)).type_name("MB");
 }
 
 void settle_memory(const CLI::App& command, std::optional<int> memory_mb, MethodOptions& method) {
   if (!memory_mb) return;
-  if (!was_stated(command, "--ao-memory")) {
+  const Given given = given_settings(command);
+  if (!given.contains("ao-memory")) {
     int& ao_mb = method.render.ao.memory_mb;
     ao_mb = std::clamp(*memory_mb / share_of_ao, 1, ao_mb);
   }
-  if (!was_stated(command, "--soft-memory")) {
+  if (!given.contains("soft-memory")) {
     method.render.soft.memory_bytes = bytes_of_mb(std::max(*memory_mb / share_of_soft, 1));
   }
 }

@@ -8,10 +8,13 @@
 namespace tenebra::viewer {
 
 inline constexpr const char* memory_help =
-    "Memory for the whole program, in MB; if it needs more,\n"
-    "it ends with a message [what the system has]";
+    "Memory for the whole program, in MB; if it needs more, it ends with a message. May be repeated: soft:MB "
+    "is the "
+    "part of soft shadows (else half), ao:MB that of fields and surface samples (else a quarter, at most "
+    "512)";
 
-/// Adds it to `command`; MB of 2^20 bytes, none: what the system has.
+/// Adds it to `command`, with the keys of the settings that `command` has; MB of 2^20 bytes, none: what the
+/// system has.
 AddedOption add_memory_option(CLI::App& command, std::optional<int>& memory_mb,
                               const char* help = memory_help);
 

@@ -1,10 +1,13 @@
 #include "options/picture_options.h"
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <array>
 #include <string_view>
 
 #include "base/fail.h"
-#include "options/choices.h"
+#include "settings/choices.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -29,11 +32,50 @@ constexpr std::array aov_names{
     AovName{"ao", [](render::AovChoice& o) -> bool& { return o.openness; }},
     AovName{"albedo", [](render::AovChoice& o) -> bool& { return o.albedo; }}};
 
-Expected<std::optional<OutputPattern>> parse_pictures(const std::string& text) {
-  if (text == "none") return std::optional<OutputPattern>();
+/// Sets what `word` is one of; false: it is none of these.
+template <class T, std::size_t N>
+bool take_word(const std::string& word, const std::array<Choice<T>, N>& choices, std::optional<T>& target) {
+  const auto found = parse_choice(choices, word);
+  if (found) target = *found;
+  return found.has_value();
+}
+
+}  // namespace
+
+Expected<void> read_pictures(const std::string& text, PictureOptions& options) {
+  if (text == "none") {
+    options.files.reset();
+    return {};
+  }
   auto pattern = OutputPattern::parse_picture(text);
   if (!pattern) return tl::unexpected(pattern.error());
-  return std::optional<OutputPattern>(std::move(*pattern));
+  options.files = std::move(*pattern);
+  return {};
+}
+
+Expected<void> read_format(const std::string& text, const std::vector<std::string_view>& known,
+                           PictureOptions& options) {
+  for (const std::string_view part : split(text, ',')) {
+    const std::string word(part);
+    const bool is_known =
+        std::any_of(known.begin(), known.end(), [&](std::string_view other) { return is_word(word, other); });
+    const bool taken = is_known && (take_word(word, exr_type_choices, options.precision) ||
+                                    take_word(word, exr_compression_choices, options.compression) ||
+                                    take_word(word, pipe_choices, options.pipe_format));
+    if (!taken) return base::fail("found {}, expected some of {}", text, fmt::join(known, ", "));
+  }
+  return {};
+}
+
+std::vector<std::string> format_words(const PictureOptions& options) {
+  std::string words;
+  const auto add = [&](const auto& choices, const auto& value) {
+    if (value) words += fmt::format("{}{}", words.empty() ? "" : ",", choice_name(choices, *value));
+  };
+  add(exr_type_choices, options.precision);
+  add(exr_compression_choices, options.compression);
+  add(pipe_choices, options.pipe_format);
+  return words.empty() ? std::vector<std::string>() : std::vector<std::string>{words};
 }
 
 Expected<render::AovChoice> parse_aovs(const std::string& text) {
@@ -57,28 +99,11 @@ Expected<render::AovChoice> parse_aovs(const std::string& text) {
   return options;
 }
 
-template <const auto& choices>
-constexpr auto parse_word = +[](const std::string& text) { return parse_choice(choices, text); };
-
-}  // namespace
-
-void add_picture_options(CLI::App& command, PictureOptions& options) {
-  options.files = OutputPattern::parse_picture("out/%04d.png").value();
-  add_value(command, "-o,--output", options.files, parse_pictures,
-            "Names of the pictures; %04d or #### is the frame. .exr:\n"
-            "OpenEXR with linear colours; -: to standard output, for a\n"
-            "pipe; none: no pictures [out/%04d.png]")
-      .type_name("FILE.png|FILE.exr|-");
-  add_aov_option(command, options.aovs);
-  add_value(command, "--exr-type", options.precision, parse_word<exr_type_choices>,
-            "Floats of 16 or 32 bits in OpenEXR; depth and ids always\nhave 32 [half]")
-      .type_name("half|float");
-  add_value(command, "--exr-compression", options.compression, parse_word<exr_compression_choices>,
-            "How OpenEXR is compressed, without loss; piz is smaller\nwhere pictures are noisy [zip]")
-      .type_name("zip|piz");
-  add_value(command, "--pipe-format", options.pipe_format, parse_word<pipe_choices>,
-            "What -o - writes: PNG files one after another, or rows of\nred, green and blue bytes [png]")
-      .type_name("png|rgb24");
+std::string aov_words(render::AovChoice aovs) {
+  std::string words;
+  for (const AovName& aov : aov_names)
+    if (aov.wanted(aovs)) words += fmt::format("{}{}", words.empty() ? "" : ",", aov.name);
+  return words;
 }
 
 void add_aov_option(CLI::App& command, render::AovChoice& aovs) {
@@ -104,12 +129,11 @@ void settle_picture_options(PictureOptions& options) {
 
 Expected<void> check_picture_options(const PictureOptions& options) {
   if (options.pipe_format && !options.to_pipe)
-    return base::fail("--pipe-format is for frames in standard output; expected -o - with it");
+    return base::fail("--format png and rgb24 are for frames in standard output; expected -o - with it");
   if (options.are_exr()) return {};
-  const char* const option = options.aovs.any()    ? "--aov"
-                             : options.precision   ? "--exr-type"
-                             : options.compression ? "--exr-compression"
-                                                   : nullptr;
+  const char* const option = options.aovs.any()                         ? "--aov"
+                             : options.precision || options.compression ? "--format"
+                                                                        : nullptr;
   if (option != nullptr)
     return base::fail("{} is for OpenEXR pictures; expected -o FILE.exr with it", option);
   return {};

@@ -3,10 +3,12 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "io/exr/exr_file.h"
-#include "options/output_pattern.h"
 #include "render/renderer.h"
+#include "settings/output_pattern.h"
 #include "shell/command_line.h"
 
 namespace tenebra::viewer {
@@ -26,10 +28,16 @@ struct PictureOptions {
   bool are_exr() const { return files && files->is_exr(); }
 };
 
-/// Adds -o and what belongs to it; read into `options`, which must live as long.
-void add_picture_options(CLI::App& command, PictureOptions& options);
+/// -o: a name, - or none.
+Expected<void> read_pictures(const std::string& text, PictureOptions& options);
+/// "float,piz", of the words that are `known`; and back.
+Expected<void> read_format(const std::string& text, const std::vector<std::string_view>& known,
+                           PictureOptions& options);
+std::vector<std::string> format_words(const PictureOptions& options);
+Expected<render::AovChoice> parse_aovs(const std::string& text);  ///< "depth,id"
+std::string aov_words(render::AovChoice aovs);
 
-/// Of these --aov alone, for callers that keep the pictures themselves.
+/// Adds --aov alone, for callers that keep the pictures themselves.
 void add_aov_option(CLI::App& command, render::AovChoice& aovs);
 
 /// Fails if `settings` do not compute what `aovs` need.

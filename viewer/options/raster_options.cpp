@@ -1,8 +1,8 @@
 #include "options/raster_options.h"
 
 #include "base/fail.h"
-#include "options/choices.h"
-#include "options/option_values.h"
+#include "settings/choices.h"
+#include "settings/values.h"
 
 namespace tenebra::viewer {
 namespace {

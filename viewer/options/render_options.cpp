@@ -2,7 +2,7 @@
 
 #include "base/fail.h"
 #include "options/config_file.h"
-#include "options/memory_option.h"
+#include "options/output_table.h"
 #include "options/raster_options.h"
 
 namespace tenebra::viewer {
@@ -24,7 +24,7 @@ constexpr const char* examples =
     "  tenebra render scenes/city.glb -o shot_%04d.exr --aov depth,normal,visibility\n"
     "      OpenEXR: linear colours, and layers for compositing (docs/exr.md)\n"
     "  tenebra render scenes/city.glb --frames all -o - | ffmpeg -f image2pipe -framerate 30 -i - city.mp4\n"
-    "      a video; --pipe-format rgb24 for -f rawvideo -pix_fmt rgb24 -s 800x600\n"
+    "      a video; --format rgb24 for -f rawvideo -pix_fmt rgb24 -s 800x600\n"
     "  tenebra render scenes/city.glb --shadows soft --light-size 2% --ao field --frames 0:9\n"
     "      point lights turned into squares, and ambient occlusion\n"
     "\n"
@@ -49,59 +49,6 @@ constexpr const char* examples =
     "time of --timeout is up, 129, 130 or 143 stopped by a signal. A second signal ends the program at once; "
     "no file\n"
     "is half written then either.";
-
-Expected<void> read_masks(const std::vector<std::string>& names, std::vector<OutputPattern>& masks) {
-  masks.clear();
-  for (const std::string& name : names) {
-    auto pattern = OutputPattern::parse_mask(name);
-    if (!pattern) return tl::unexpected(pattern.error());
-    masks.push_back(std::move(*pattern));
-  }
-  return {};
-}
-
-void add_output_options(CLI::App& command, RenderOptions& options) {
-  add_picture_options(command, options.pictures);
-  add_texts(
-      command, "--mask",
-      [&options](const std::vector<std::string>& names) { return read_masks(names, options.masks); },
-      "Shadow masks: 255 lit; 0 in shadow, facing away or\n"
-      "background; soft: values in between, the visible part of the\n"
-      "light; .pfm: in 32 bits; several lights add _L0, _L1, ...;\n"
-      "may be repeated")
-      .type_name("FILE.png|FILE.pfm");
-  add_texts(
-      command, "--mask-colour",
-      [&options](const std::vector<std::string>& names) { return read_masks(names, options.mask_colours); },
-      "The same in colour: masks times the shares of red, green\n"
-      "and blue that glass and blended surfaces let pass")
-      .type_name("FILE.png|FILE.pfm");
-  add_texts(
-      command, "--mask-mean",
-      [&options](const std::vector<std::string>& names) { return read_masks(names, options.mask_means); },
-      "The mean of the masks over each pixel's samples\n"
-      "(--antialias); --mask is the sample at the pixel's centre")
-      .type_name("FILE.png|FILE.pfm");
-  add_texts(
-      command, "--mask-samples",
-      [&options](const std::vector<std::string>& names) { return read_masks(names, options.mask_samples); },
-      "The mask of each sample; names add _S0, _S1, ...: the\n"
-      "centre's first, then the others; a pixel with one sample\n"
-      "has it in all of them")
-      .type_name("FILE.png");
-  add_texts(
-      command, "--error-map",
-      [&options](const std::vector<std::string>& names) { return read_masks(names, options.error_maps); },
-      "How far off the light at each pixel may be (estimated\n"
-      "standard error), in 1/255 of its white: 0 where it is exact;\n"
-      ".pfm: in 32 bits, .png: rounded")
-      .type_name("FILE.png|FILE.pfm");
-  add_text(command, "--log", options.log, "Log: times and counts of each frame").type_name("FILE.csv");
-  add_text(command, "--trace", options.trace, "The same times for Perfetto or chrome://tracing")
-      .type_name("FILE.json");
-  add_flag(command, "--quiet", options.quiet, "No progress, warnings or summary");
-  add_raster_options(command, options.raster);
-}
 
 bool draws_several_frames(const RenderOptions& options) {
   return options.frames && options.frames->last != options.frames->first;
@@ -138,10 +85,10 @@ Expected<void> check_sample_masks(const RenderOptions& options, bool several) {
     }
     return {};
   };
-  if (auto checked = check(options.mask_means, "--mask-mean"); !checked) return checked;
+  if (auto checked = check(options.mask_means, "--mask mean"); !checked) return checked;
   for (const OutputPattern& mask : options.mask_samples)
-    if (mask.is_pfm()) return base::fail("--mask-samples {} are masks of 8 bits; expected .png", mask.text());
-  return check(options.mask_samples, "--mask-samples");
+    if (mask.is_pfm()) return base::fail("--mask samples:{} are masks of 8 bits; expected .png", mask.text());
+  return check(options.mask_samples, "--mask samples");
 }
 
 Expected<void> check_masks(const RenderOptions& options, bool several) {
@@ -153,19 +100,20 @@ Expected<void> check_masks(const RenderOptions& options, bool several) {
   }
   if (auto checked = check_sample_masks(options, several); !checked) return checked;
   for (const OutputPattern& map : options.error_maps) {
-    if (auto checked = check_mask(options, map, "--error-map", several); !checked) return checked;
+    if (auto checked = check_mask(options, map, "--mask error", several); !checked) return checked;
     if (options.method.render.shadows != render::ShadowMode::soft || options.method.render.soft_points > 0)
-      return base::fail("--error-map {} is for soft shadows with an error; expected --shadows soft{}",
-                        map.text(), options.method.render.soft_points > 0 ? " without --soft-points" : "");
+      return base::fail("--mask error:{} is for soft shadows with an error; expected --shadows soft{}",
+                        map.text(),
+                        options.method.render.soft_points > 0 ? " without --paper soft-points" : "");
     for (const OutputPattern& other : options.masks)
       if (map.file(0) == other.file(0))
-        return base::fail("--mask and --error-map name the same file {}", map.text());
+        return base::fail("--mask and --mask error name the same file {}", map.text());
   }
   for (const OutputPattern& mask : options.mask_colours) {
-    if (auto checked = check_mask(options, mask, "--mask-colour", several); !checked) return checked;
+    if (auto checked = check_mask(options, mask, "--mask colour", several); !checked) return checked;
     for (const OutputPattern& other : options.masks)
       if (mask.file(0) == other.file(0))
-        return base::fail("--mask and --mask-colour name the same file {}", mask.text());
+        return base::fail("--mask and --mask colour name the same file {}", mask.text());
   }
   return {};
 }
@@ -189,47 +137,21 @@ Expected<void> check_pictures(const RenderOptions& options, bool several) {
   return pictures.files ? check_pattern(*pictures.files, "-o", several) : Expected<void>();
 }
 
-/// The options that say which of the frames are drawn by this run.
-void add_progress_options(CLI::App& command, RenderOptions& options) {
-  add_value(command, "--chunk", options.chunk, parse_chunk,
-            "Draw only part I of N of the frames, counted from 1, for\n"
-            "N processes")
-      .type_name("I/N");
-  add_flag(command, "--resume", options.resume,
-           "Continue a render of the same scene, settings and program\n"
-           "where it ended; fails if these differ");
-  add_value(command, "--timeout", options.timeout_s, parse_positive,
-            "Stop after this many seconds, as Ctrl-C does")
-      .type_name("S");
-  add_memory_option(command, options.memory_mb);
-}
-
-void add_budget_option(CLI::App& command, RenderOptions& options) {
-  add_value(command, "--budget", options.budget_ms, parse_positive,
-            "Time for a frame, in ms: each gets the smallest errors of a\n"
-            "fixed ladder that fit, as --soft-error and --ao-error; none\n"
-            "smaller than those of --quality. The log has them")
-      .type_name("MS")
-      .excludes(option_of(command, "--soft-error"))
-      .excludes(option_of(command, "--ao-error"))
-      .excludes(option_of(command, "--soft-points"));
-}
-
 }  // namespace
 
 void add_render_options(CLI::App& command, RenderOptions& options) {
+  const std::string run(settings::group_title(settings::Group::run));
   set_examples(command, examples);
+  options.pictures.files = OutputPattern::parse("out/%04d.png").value();
   add_scene_options(command, options.scene);
   option_of(command, "SCENE").required();
-  add_value(command, "--frames", options.frames, parse_frame_range,
-            "Frames to render; 0:99:10 for every tenth [0, the first]")
-      .type_name("A:B[:STEP]|all")
-      .excludes(option_of(command, "--time"));
-  add_progress_options(command, options);
+  add_settings(command, output_table(), options);
   add_method_options(command, options.method);
-  add_budget_option(command, options);
-  add_output_options(command, options);
+  for (const char* errors : {"--soft-error", "--ao-error", "--soft-points"})
+    option_of(command, "--budget").excludes(option_of(command, errors));
+  for (const AddedOption option : add_raster_options(command, options.raster)) option.group(run);
   add_config_option(command);
+  option_of(command, "--config").group(run);
 }
 
 void settle_render_options(RenderOptions& options) {
@@ -248,8 +170,8 @@ Expected<void> check_render_options(const RenderOptions& options) {
                      !options.error_maps.empty();
   if (options.resume && !files && options.log.empty())
     return base::fail("--resume goes by pictures, masks or the log; expected -o, --mask or --log");
-  if (auto checked = check_scene_options(options.scene); !checked) return checked;
-  return check_method_options(options.method);
+  if (auto checked = check_scene_settings(options.scene); !checked) return checked;
+  return check_method_settings(options.method);
 }
 
 }  // namespace tenebra::viewer

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "options/method_options.h"
-#include "options/output_pattern.h"
 #include "options/picture_options.h"
 #include "options/scene_options.h"
+#include "settings/output_pattern.h"
 
 namespace tenebra::viewer {
 

@@ -2,33 +2,20 @@
 // and trade share them.
 #pragma once
 
-#include <string>
-
-#include "options/option_values.h"
-#include "settings/scene_settings.h"
-#include "shell/command_line.h"
+#include "options/setting_options.h"
+#include "options/settings_names.h"
 
 namespace tenebra::viewer {
 
-using SceneOptions = settings::SceneSettings;
-
-/// Adds SCENE, --scene, --no-cast, --cast-all, --cone-sides, --cutout-limit, --texture-path, --transfer,
-/// --environment, --surfaces, --floor, --set-light, --add-light, --set-material, --set-node, --time, --fps,
-/// --clip and those of the camera, --size too; they are read into `options`, which must live as long. A
-/// command makes SCENE required with option_of(command, "SCENE").required().
+/// Adds SCENE and all settings of it; they are read into `options`, which must live as long. A command makes
+/// SCENE required with option_of(command, "SCENE").required().
 void add_scene_options(CLI::App& command, SceneOptions& options);
 
-/// Of these SCENE, --scene, --no-cast, --cast-all, --cone-sides, --cutout-limit, --texture-path, those that
-/// change lights, materials and nodes, --time, --fps and --clip; for commands without a picture.
+/// Of these SCENE and those that concern its file, lights, materials, nodes and moment; for commands without
+/// a picture.
 void add_content_options(CLI::App& command, SceneOptions& options);
 
-/// Adds --texture-path; for commands without the options above.
-void add_texture_path(CLI::App& command, formats::ImportOptions& options);
-
-/// The options for another file in place of this one: those that concern no part of a scene stay.
-SceneOptions options_for(const std::string& file, const SceneOptions& before);
-
-/// What single options cannot check: combinations.
-Expected<void> check_scene_options(const SceneOptions& options);
+/// Of these how the file is read, without SCENE; for commands that only look at it.
+void add_import_options(CLI::App& command, SceneOptions& options);
 
 }  // namespace tenebra::viewer

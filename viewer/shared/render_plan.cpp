@@ -47,7 +47,7 @@ Expected<RenderPlan> plan_render(const RenderOptions& options) {
   auto frames = plan_frames(*plan.staged, options);
   if (!frames) return tl::unexpected(frames.error());
   plan.frames = std::move(*frames);
-  plan.settings = method_settings(options.method, plan.staged->size, plan.staged->display);
+  plan.settings = render_settings(options.method, plan.staged->size, plan.staged->display);
   plan.settings = session::with_edits(std::move(plan.settings), options.scene.edits);
   plan.settings.mask_means = !options.mask_means.empty();
   plan.settings.error_maps = !options.error_maps.empty();

@@ -81,7 +81,7 @@ AddedOption add_texts(CLI::App& command, const std::string& name,
                       std::function<Expected<void>(const std::vector<std::string>&)> read,
                       const std::string& help) {
   const auto read_all = [read = std::move(read), name](const std::vector<std::string>& texts) {
-    if (auto done = read(texts); !done) throw CLI::ValidationError(name, done.error().message);
+    if (auto done = read(texts); !done) throw CLI::ValidationError(name, without_gap(done.error().message));
   };
   return AddedOption(
       *command.add_option_function<std::vector<std::string>>(name, read_all, help)->allow_extra_args(false));
@@ -93,6 +93,14 @@ AddedOption add_reader(CLI::App& command, const std::string& name,
     if (auto done = read(text); !done) throw CLI::ValidationError(name, without_gap(done.error().message));
   };
   return AddedOption(*command.add_option_function<std::string>(name, read_one, help)->take_last());
+}
+
+AddedOption add_switch(CLI::App& command, const std::string& name, std::function<Expected<void>(bool)> read,
+                       const std::string& help) {
+  const auto read_count = [read = std::move(read), name](std::int64_t count) {
+    if (auto done = read(count > 0); !done) throw CLI::ValidationError(name, done.error().message);
+  };
+  return AddedOption(*command.add_flag_function(name, read_count, help));
 }
 
 AddedOption option_of(CLI::App& command, const std::string& name) {

@@ -61,6 +61,10 @@ AddedOption add_texts(CLI::App& command, const std::string& name,
 AddedOption add_reader(CLI::App& command, const std::string& name,
                        std::function<Expected<void>(const std::string&)> read, const std::string& help);
 
+/// A flag: `read` gets whether it is on.
+AddedOption add_switch(CLI::App& command, const std::string& name, std::function<Expected<void>(bool)> read,
+                       const std::string& help);
+
 /// Adds an option with a function that makes the value of `target` from text.
 template <class Target, class Value>
 AddedOption add_value(CLI::App& command, const std::string& name, Target& target,

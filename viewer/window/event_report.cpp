@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/fail.h"
-#include "options/edit_texts.h"
 #include "options/method_arguments.h"
+#include "settings/edit_texts.h"
 
 namespace tenebra::viewer {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "options/edit_texts.h"
 #include "options/method_arguments.h"
 #include "options/scene_arguments.h"
+#include "settings/edit_texts.h"
 
 namespace tenebra::viewer {
 namespace {

@@ -1,10 +1,10 @@
 #include "window/view_options.h"
 
 #include "base/fail.h"
-#include "options/choices.h"
 #include "options/config_file.h"
 #include "options/memory_option.h"
 #include "options/raster_options.h"
+#include "settings/choices.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -67,12 +67,10 @@ Expected<MethodOptions> parse_method(const std::string& text, const MethodOption
   method.quality.reset();               // what it stands for is in the settings
   const auto command = lone_command();  // --help is no method
   add_method_options(*command, method);
-  const auto cache = base.render.ao.cache;  // add_method_options sets its default
-  method.render.ao.cache = cache;
   if (auto parsed = parse_arguments(*command, text); !parsed)
     return base::fail("--compare: {}", parsed.error().message);
   settle_quality(*command, method);
-  if (auto checked = check_method_options(method); !checked)
+  if (auto checked = check_method_settings(method); !checked)
     return base::fail("--compare: {}", checked.error().message);
   return method;
 }
@@ -143,10 +141,10 @@ void add_output_options(CLI::App& command, ViewOptions& options) {
   group(add_flag(command, "--gl-debug", options.gl_debug,
                  "Use OpenGL debug contexts; their messages go to the report"));
   for (const AddedOption option : add_raster_options(command, options.raster)) group(option);
-  group(add_memory_option(command, options.memory_mb,
-                          "Memory for the whole program, in MB; a picture or a scene\n"
-                          "that needs more is refused with a message\n"
-                          "[what the system has]"));
+  group(add_memory_option(
+      command, options.memory_mb,
+      "Memory for the whole program, in MB; a picture or a scene that needs more is refused "
+      "with a message [what the system has]"));
 }
 
 }  // namespace
@@ -161,8 +159,8 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
 }
 
 Expected<void> settle_view_options(ViewOptions& options) {
-  if (auto checked = check_scene_options(options.scene); !checked) return checked;
-  if (auto checked = check_method_options(options.method); !checked) return checked;
+  if (auto checked = check_scene_settings(options.scene); !checked) return checked;
+  if (auto checked = check_method_settings(options.method); !checked) return checked;
   if (options.compare_text) {
     auto method = parse_method(*options.compare_text, options.method);
     if (!method) return tl::unexpected(method.error());

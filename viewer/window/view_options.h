@@ -6,8 +6,8 @@
 #include <string>
 
 #include "options/method_options.h"
-#include "options/output_pattern.h"
 #include "options/scene_options.h"
+#include "settings/output_pattern.h"
 #include "window/view_state.h"
 
 namespace tenebra::viewer {

@@ -240,7 +240,7 @@ void Viewer::act() {
 void Viewer::drop(const std::vector<std::string>& files) {
   if (files.empty()) return;
   report_.note("drop", files.front());
-  worker_.open(options_for(files.front(), options_.scene));
+  worker_.open(settings_for(files.front(), options_.scene));
   if (files.size() > 1) say(fmt::format("{} files were dropped; the first is opened.", files.size()));
 }
 
@@ -281,8 +281,8 @@ void Viewer::draw(float scale, float pixels_a_unit) {
   marks_.clear();
   drawn_picture_ = picture_;
   Ui ui{state_, actions_, marks_, picture_.get(), history_, keys_, worker_.status(), log, scale, answer()};
-  const std::string subject = state_.scene ? trade_subject(state_, place_, now()) : "";
-  ui.trade = search_.status(), ui.trade_subject = subject;
+  ui.trade = search_.status();
+  if (state_.scene) ui.trade_subject = trade_subject(state_, place_, now());
   handle_keys(ui, std::min(seconds, 0.1f));
   const ImGuiConfigFlags nav = ImGuiConfigFlags_NavEnableKeyboard;
   io.ConfigFlags = state_.keys_in_panel ? io.ConfigFlags | nav : io.ConfigFlags & ~nav;

@@ -2,7 +2,7 @@
 
 #include "bench/ao/ao_race.h"
 #include "bench/common/bench_report.h"
-#include "render/quality.h"
+#include "settings/quality.h"
 
 namespace tenebra::bench {
 namespace {
@@ -14,13 +14,13 @@ std::optional<double> estimate_of(const AmbientOcclusion& ao, AoMode mode) {
 
 struct Setting {
   const char* name;
-  render::Quality quality;
+  settings::Quality quality;
   AoMode mode;
 };
-constexpr Setting settings_shown[] = {{"default", render::Quality::balanced, AoMode::adaptive},
-                                      {"exact", render::Quality::exact, AoMode::adaptive},
-                                      {"fast", render::Quality::fast, AoMode::adaptive},
-                                      {"fields", render::Quality::balanced, AoMode::field}};
+constexpr Setting settings_shown[] = {{"default", settings::Quality::balanced, AoMode::adaptive},
+                                      {"exact", settings::Quality::exact, AoMode::adaptive},
+                                      {"fast", settings::Quality::fast, AoMode::adaptive},
+                                      {"fields", settings::Quality::balanced, AoMode::field}};
 
 }  // namespace
 
@@ -28,7 +28,7 @@ std::vector<AoSceneSetting> scene_settings(float reach_m, const std::filesystem:
   std::vector<AoSceneSetting> settings;
   for (const auto& [name, quality, mode] : settings_shown) {
     render::RenderSettings chosen;
-    render::apply_quality(quality, chosen);
+    settings::apply_quality(quality, chosen);
     AoConfig config = chosen.ao;
     config.mode = mode;
     config.distance_m = static_cast<double>(reach_m);

@@ -46,13 +46,16 @@ TEST_F(AntialiasCommand, RefusesNumbersOfSamplesThatThereAreNot) {
 }
 
 TEST_F(AntialiasCommand, MasksOfSamplesNeedSeveral) {
-  expect_refusal({"-o", "none", "--antialias", "1", "--mask-mean", folder_ / "m.png"},
-                 "--mask-mean is for several samples per pixel; expected --antialias 2, 4, 8 or 16");
-  expect_refusal({"-o", "none", "--antialias", "1", "--mask-samples", folder_ / "m.png"}, "--mask-samples");
-  expect_refusal({"-o", "none", "--mask-samples", folder_ / "m.pfm"}, "expected .png");
-  expect_refusal({"-o", "none", "--mask", folder_ / "m.png", "--mask-mean", folder_ / "m.png"},
-                 "name the same file");
-  expect_refusal({"-o", "none", "--shadows", "none", "--mask-mean", folder_ / "m.png"}, "--shadows none");
+  expect_refusal({"-o", "none", "--antialias", "1", "--mask", "mean:" + (folder_ / "m.png").string()},
+                 "--mask mean is for several samples per pixel; expected --antialias 2, 4, 8 or 16");
+  expect_refusal({"-o", "none", "--antialias", "1", "--mask", "samples:" + (folder_ / "m.png").string()},
+                 "--mask samples");
+  expect_refusal({"-o", "none", "--mask", "samples:" + (folder_ / "m.pfm").string()}, "expected .png");
+  expect_refusal(
+      {"-o", "none", "--mask", folder_ / "m.png", "--mask", "mean:" + (folder_ / "m.png").string()},
+      "name the same file");
+  expect_refusal({"-o", "none", "--shadows", "none", "--mask", "mean:" + (folder_ / "m.png").string()},
+                 "--shadows none");
 }
 
 TEST_F(AntialiasCommand, MasksOfCentresAreTheSameFileForAnyNumber) {
@@ -67,9 +70,10 @@ TEST_F(AntialiasCommand, MasksOfCentresAreTheSameFileForAnyNumber) {
 }
 
 TEST_F(AntialiasCommand, WritesTheMasksOfSamplesAndTheirMeans) {
-  render_well({"-o", "none", "--antialias", "8", "--mask", folder_ / "mask.png", "--mask-samples",
-               folder_ / "samples.png", "--mask-mean", folder_ / "mean.png", "--mask-mean",
-               folder_ / "mean.pfm"});
+  render_well({"-o", "none", "--antialias", "8", "--mask", folder_ / "mask.png", "--mask",
+               "samples:" + (folder_ / "samples.png").string(), "--mask",
+               "mean:" + (folder_ / "mean.png").string(), "--mask",
+               "mean:" + (folder_ / "mean.pfm").string()});
   EXPECT_EQ(picture("samples_S0.png"), picture("mask.png")) << "the centre's";
   std::vector<int> lit(width * height, 0);
   for (int k = 0; k < 8; ++k) {

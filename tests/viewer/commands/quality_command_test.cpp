@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 
 #include "io/image.h"
@@ -26,7 +28,7 @@ std::string method_of(const std::string& text) {
 }
 
 TEST(QualityOption, SetsWhatItStandsFor) {
-  EXPECT_EQ(method_of("--quality fast"), "--soft-error 4 --ao-error 5 --ao-rays 16 --ao-downscale 2");
+  EXPECT_EQ(method_of("--quality fast"), "--soft-error 4 --ao-error 5 --ao-rays 16 --paper ao-downscale=2");
   EXPECT_EQ(method_of("--quality balanced"), "");
   EXPECT_EQ(method_of("--quality exact"), "--ao-error 1 --ao-rays 256");
   EXPECT_EQ(method_of("--quality exact --quality fast"), method_of("--quality fast")) << "the last counts";
@@ -34,16 +36,16 @@ TEST(QualityOption, SetsWhatItStandsFor) {
 
 TEST(QualityOption, LosesToOptionsGivenThemselves) {
   for (const char* text : {"--quality fast --ao-rays 32", "--ao-rays 32 --quality fast"})
-    EXPECT_EQ(method_of(text), "--soft-error 4 --ao-error 5 --ao-rays 32 --ao-downscale 2") << text;
-  for (const char* text : {"--soft-points 0 --quality fast", "--quality fast --soft-points 0"})
-    EXPECT_EQ(method_of(text), "--ao-error 5 --ao-rays 16 --ao-downscale 2") << text;
-  for (const char* text : {"--ao-downscale 1 --quality fast", "--quality fast --ao-downscale 1"})
+    EXPECT_EQ(method_of(text), "--soft-error 4 --ao-error 5 --ao-rays 32 --paper ao-downscale=2") << text;
+  for (const char* text : {"--paper soft-points=0 --quality fast", "--quality fast --paper soft-points=0"})
+    EXPECT_EQ(method_of(text), "--ao-error 5 --ao-rays 16 --paper ao-downscale=2") << text;
+  for (const char* text : {"--paper ao-downscale=1 --quality fast", "--quality fast --paper ao-downscale=1"})
     EXPECT_EQ(method_of(text), "--soft-error 4 --ao-error 5 --ao-rays 16") << text;
   EXPECT_EQ(method_of("--quality fast --ao-error 3"),
-            "--soft-error 4 --ao-error 3 --ao-rays 16 --ao-downscale 2");
+            "--soft-error 4 --ao-error 3 --ao-rays 16 --paper ao-downscale=2");
   EXPECT_EQ(method_of("--ao-rays 64 --ao-error 2.5 --quality exact"), "") << "the default, but given";
-  EXPECT_EQ(method_of("--soft-points 3 --variant Spheres --quality exact"),
-            "--variant Spheres --soft-points 3 --ao-error 1 --ao-rays 256");
+  EXPECT_EQ(method_of("--paper soft-points=3 --paper variant=Spheres --quality exact"),
+            "--paper variant=Spheres --paper soft-points=3 --ao-error 1 --ao-rays 256");
 }
 
 TEST(QualityOption, LosesToThemInAFileToo) {
@@ -53,13 +55,13 @@ TEST(QualityOption, LosesToThemInAFileToo) {
     return method_of(line + " --config " + (folder / "my.cfg").string());
   };
   EXPECT_EQ(with("quality = fast\nao-rays = 32\n", ""),
-            "--soft-error 4 --ao-error 5 --ao-rays 32 --ao-downscale 2");
+            "--soft-error 4 --ao-error 5 --ao-rays 32 --paper ao-downscale=2");
   EXPECT_EQ(with("ao-rays = 32\nquality = fast\n", ""),
-            "--soft-error 4 --ao-error 5 --ao-rays 32 --ao-downscale 2");
+            "--soft-error 4 --ao-error 5 --ao-rays 32 --paper ao-downscale=2");
   EXPECT_EQ(with("quality = fast\n", "--ao-rays 32"),
-            "--soft-error 4 --ao-error 5 --ao-rays 32 --ao-downscale 2");
+            "--soft-error 4 --ao-error 5 --ao-rays 32 --paper ao-downscale=2");
   EXPECT_EQ(with("ao-rays = 32\n", "--quality fast"),
-            "--soft-error 4 --ao-error 5 --ao-rays 32 --ao-downscale 2");
+            "--soft-error 4 --ao-error 5 --ao-rays 32 --paper ao-downscale=2");
   EXPECT_EQ(with("quality = fast\n", "--quality exact"), "--ao-error 1 --ao-rays 256")
       << "the command line counts more";
 }
@@ -75,10 +77,10 @@ TEST(QualityOption, IsRefusedInASentenceWhereUnknown) {
       EXPECT_NE(result.errors.find("expected fast, balanced or exact"), std::string::npos) << result.errors;
     }
   }
-  for (const auto& [option, value] : {std::pair{"--soft-points", "-1"},
-                                      {"--soft-points", "5000"},
-                                      {"--ao-downscale", "0"},
-                                      {"--ao-downscale", "9"}}) {
+  for (const auto& [option, value] : {std::pair{"--paper", "soft-points=-1"},
+                                      {"--paper", "soft-points=5000"},
+                                      {"--paper", "ao-downscale=0"},
+                                      {"--paper", "ao-downscale=9"}}) {
     const auto result = tenebra({"render", scene, option, value});
     EXPECT_EQ(result.exit_code, 1) << option << ' ' << value;
     EXPECT_TRUE(is_one_sentence(result.errors)) << result.errors;
@@ -112,13 +114,13 @@ TEST(QualityOption, SaysWhereItDoesNothing) {
     return warnings(more);
   };
   EXPECT_EQ(with({"--quality", "fast"}), "");
-  EXPECT_EQ(with({"--quality", "fast", "--soft-solver", "bsp"}), "");
-  EXPECT_EQ(with({"--soft-points", "8", "--soft-solver", "bsp"}),
-            "warning: --soft-solver does nothing where lights are 8 points\n");
-  EXPECT_EQ(with({"--soft-points", "0", "--soft-precision", "reference"}), "");
-  EXPECT_EQ(warnings({"--shadows", "none", "--samples", "depth", "--variant", "Spheres"}),
-            "warning: --variant does nothing with --shadows none\n"
-            "warning: --samples does nothing with --shadows none\n");
+  EXPECT_EQ(with({"--quality", "fast", "--paper", "soft-solver=bsp"}), "");
+  EXPECT_EQ(with({"--paper", "soft-points=8", "--paper", "soft-solver=bsp"}),
+            "warning: --paper soft-solver does nothing where lights are 8 points\n");
+  EXPECT_EQ(with({"--paper", "soft-points=0", "--paper", "soft-precision=reference"}), "");
+  EXPECT_EQ(warnings({"--shadows", "none", "--paper", "samples=depth", "--paper", "variant=Spheres"}),
+            "warning: --paper variant does nothing with --shadows none\n"
+            "warning: --paper samples does nothing with --shadows none\n");
 }
 
 TEST(QualityOption, OfTheSecondMethodStandsOnTheFirst) {
@@ -129,7 +131,7 @@ TEST(QualityOption, OfTheSecondMethodStandsOnTheFirst) {
   viewer::settle_quality(app, options.method);
   ASSERT_TRUE(viewer::settle_view_options(options));
   EXPECT_EQ(viewer::method_arguments(options.method),
-            "--shadows soft --soft-error 4 --ao-error 5 --ao-rays 5 --ao-downscale 2");
+            "--shadows soft --soft-error 4 --ao-error 5 --ao-rays 5 --paper ao-downscale=2");
   ASSERT_TRUE(options.compare);
   EXPECT_EQ(viewer::method_arguments(*options.compare), "--shadows soft --ao-error 1 --ao-rays 256");
 }
@@ -159,7 +161,12 @@ TEST(QualityOption, IsDocumentedWithTheErrorsThatWereMeasured) {
                     help = tenebra({"render", "--help"}).output;
   const auto between = [](const std::string& text, const char* first, const char* last) {
     const std::size_t begin = text.find(first);
-    return text.substr(std::min(begin, text.size()), text.find(last, begin) - begin);
+    std::string part = text.substr(std::min(begin, text.size()), text.find(last, begin) - begin);
+    part.erase(std::unique(part.begin(), part.end(),
+                           [](char a, char b) { return std::isspace(a) != 0 && std::isspace(b) != 0; }),
+               part.end());
+    std::replace(part.begin(), part.end(), '\n', ' ');
+    return part;
   };
   const std::string told = between(commands, "- `--quality fast|", "\n- "),
                     helped = between(help, "--quality fast|", "--shadows none|");
@@ -191,8 +198,8 @@ TEST(QualityOption, ExactIsTheDefaultExactPictureToTheBit) {
   const io::Image8 fast = picture(folder, scene, {"--quality", "fast"});
   EXPECT_EQ(fast, standard) << "few occluders: nothing is quicker than exact";
   EXPECT_EQ(picture(folder, scene, {"--soft-error", "4"}), fast);
-  EXPECT_NE(picture(folder, scene, {"--soft-points", "8"}), standard);
-  EXPECT_EQ(picture(folder, scene, {"--soft-points", "0", "--quality", "fast"}), standard);
+  EXPECT_NE(picture(folder, scene, {"--paper", "soft-points=8"}), standard);
+  EXPECT_EQ(picture(folder, scene, {"--paper", "soft-points=0", "--quality", "fast"}), standard);
 }
 
 }  // namespace

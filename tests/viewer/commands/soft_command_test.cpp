@@ -88,11 +88,11 @@ TEST(SoftCommand, EverySettingOfTheSolversDrawsTheSamePicture) {
   const TemporaryFolder folder;
   const std::string scene = write_moving_scene(folder);
   const std::vector<std::vector<std::string>> settings{{},
-                                                       {"--soft-solver", "bsp"},
-                                                       {"--soft-solver", "clip"},
-                                                       {"--soft-grouping", "triangle"},
-                                                       {"--soft-choice", "random"},
-                                                       {"--soft-precision", "reference"},
+                                                       {"--paper", "soft-solver=bsp"},
+                                                       {"--paper", "soft-solver=clip"},
+                                                       {"--paper", "soft-grouping=triangle"},
+                                                       {"--paper", "soft-choice=random"},
+                                                       {"--paper", "soft-precision=reference"},
                                                        {"--threads", "1"},
                                                        {"--simd", "scalar"}};
   io::Image8 expected;
@@ -127,11 +127,11 @@ TEST(SoftCommand, WarnsOfOptionsThatDoNothing) {
   const TemporaryFolder folder;
   const auto result =
       tenebra(render(write_moving_scene(folder),
-                     {"-o", "none", "--light-size", "4%", "--ao-rays", "16", "--soft-solver", "clip"}));
+                     {"-o", "none", "--light-size", "4%", "--ao-rays", "16", "--paper", "soft-solver=clip"}));
   EXPECT_EQ(result.exit_code, 0);
   for (const char* warning : {"warning: --light-size does nothing without --shadows soft\n",
                               "warning: --ao-rays does nothing without --ao\n",
-                              "warning: --soft-solver does nothing without --shadows soft\n"}) {
+                              "warning: --paper soft-solver does nothing without --shadows soft\n"}) {
     EXPECT_NE(result.errors.find(warning), std::string::npos) << result.errors;
   }
 }
@@ -227,26 +227,16 @@ TEST(SoftCommand, TakesTheSmallestErrorThatFitsTheBudget) {
 TEST(SoftCommand, SaysOnceThatGroupsChangedTheirSolver) {
   const TemporaryFolder folder;
   const auto draw = [&](std::vector<std::string> more) {
-    std::vector<std::string> all{"render",
-                                 (fs::path(TENEBRA_SCENES_DIR) / "court.glb").string(),
-                                 "--size",
-                                 "24x14",
-                                 "--frames",
-                                 "60:61",
-                                 "--shadows",
-                                 "soft",
-                                 "--light",
-                                 "0",
-                                 "--soft-solver",
-                                 "bsp",
-                                 "--light-size",
-                                 "2%",
-                                 "--antialias",
-                                 "1",
-                                 "-o",
-                                 "none",
-                                 "--log",
-                                 folder / "log.csv"};
+    std::vector<std::string> all{"render",       (fs::path(TENEBRA_SCENES_DIR) / "court.glb").string(),
+                                 "--size",       "24x14",
+                                 "--frames",     "60:61",
+                                 "--shadows",    "soft",
+                                 "--light",      "0",
+                                 "--paper",      "soft-solver=bsp",
+                                 "--light-size", "2%",
+                                 "--antialias",  "1",
+                                 "-o",           "none",
+                                 "--log",        folder / "log.csv"};
     all.insert(all.end(), more.begin(), more.end());
     return tenebra(all);
   };
@@ -269,15 +259,16 @@ TEST(SoftCommand, SaysOnceThatGroupsChangedTheirSolver) {
 TEST(SoftCommand, WritesAMapOfTheErrors) {
   const TemporaryFolder folder;
   const std::string scene = write_moving_scene(folder);
-  const auto result =
-      tenebra(render(scene, {"--shadows", "soft", "--light-size", "1.5x0.5", "-o", "none", "--error-map",
-                             folder / "error.pfm", "--error-map", folder / "error.png"}));
+  const auto result = tenebra(render(scene, {"--shadows", "soft", "--light-size", "1.5x0.5", "-o", "none",
+                                             "--mask", "error:" + (folder / "error.pfm").string(), "--mask",
+                                             "error:" + (folder / "error.png").string()}));
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   for (const float error : read_pfm(folder / "error.pfm")) ASSERT_EQ(error, 0) << "exact";
   const auto picture = io::read_png(folder / "error.png");
   ASSERT_TRUE(picture) << picture.error().message;
   EXPECT_EQ(picture->width, 80);
-  const auto hard = tenebra(render(scene, {"-o", "none", "--error-map", folder / "hard.pfm"}));
+  const auto hard =
+      tenebra(render(scene, {"-o", "none", "--mask", "error:" + (folder / "hard.pfm").string()}));
   EXPECT_EQ(hard.exit_code, 1);
   EXPECT_NE(hard.errors.find("expected --shadows soft"), std::string::npos) << hard.errors;
 }

@@ -14,8 +14,9 @@ namespace {
 TEST(VerifyCommand, FindsTheMasksOfASceneRight) {
   const TemporaryFolder folder;
   const std::string scene = write_moving_scene(folder, 2);
-  for (const std::vector<std::string>& more :
-       {std::vector<std::string>{}, {"--variant", "PreciseSEATP", "--threads", "1"}, {"--cull", "front"}}) {
+  for (const std::vector<std::string>& more : {std::vector<std::string>{},
+                                               {"--paper", "variant=PreciseSEATP", "--threads", "1"},
+                                               {"--paper", "cull=front"}}) {
     std::vector<std::string> arguments{"verify", scene,   "--frames", "0:20:10",
                                        "--size", "80x60", "--report", folder / "report.json",
                                        "--quiet"};
@@ -28,7 +29,8 @@ TEST(VerifyCommand, FindsTheMasksOfASceneRight) {
     EXPECT_EQ(json["masks"].size(), 6u) << "two lights";
     EXPECT_EQ(json["all"]["wrong"], 0);
     EXPECT_GT(json["all"]["samples"], 5000);
-    EXPECT_EQ(json["all"]["blocked"] > 0, more.empty() || more[0] != "--cull") << "the blocker's front casts";
+    EXPECT_EQ(json["all"]["blocked"] > 0, more.empty() || more[1] != "cull=front")
+        << "the blocker's front casts";
   }
 }
 
@@ -47,10 +49,11 @@ TEST(VerifyCommand, FindsTheFractionsOfLightsWithAnAreaRight) {
   const TemporaryFolder folder;
   const std::string scene = write_moving_scene(folder, 2);
   for (const char* precision : {"fast", "reference"}) {
-    const auto result = tenebra({"verify", scene, "--shadows", "soft", "--set-light", "0 size=0.5",
-                                 "--add-light", "directional direction=-0.2,-1,0.1 intensity=2", "--sun-size",
-                                 "5", "--size", "80x60", "--samples", "400", "--soft-precision", precision,
-                                 "--report", folder / "report.json", "--quiet"});
+    const auto result =
+        tenebra({"verify", scene, "--shadows", "soft", "--set-light", "0 size=0.5", "--add-light",
+                 "directional direction=-0.2,-1,0.1 intensity=2", "--sun-size", "5", "--size", "80x60",
+                 "--samples", "400", "--paper", "soft-precision=" + std::string(precision), "--report",
+                 folder / "report.json", "--quiet"});
     EXPECT_EQ(result.exit_code, 0) << result.errors;
     EXPECT_TRUE(result.output.ends_with("\nwrong: 0\n")) << result.output;
     const auto json = nlohmann::json::parse(read_text(folder / "report.json"));

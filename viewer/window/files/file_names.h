@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "options/output_pattern.h"
+#include "settings/output_pattern.h"
 
 namespace tenebra::viewer {
 

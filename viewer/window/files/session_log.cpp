@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "base/machine.h"
-#include "options/edit_texts.h"
 #include "options/method_arguments.h"
 #include "parallel/parallel.h"
+#include "settings/edit_texts.h"
 
 namespace tenebra::viewer {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <tenebra/expected.h>
-#include "options/option_values.h"
+#include "settings/values.h"
 
 namespace tenebra::viewer {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "options/output_pattern.h"
+#include "settings/output_pattern.h"
 #include "options/scene_options.h"
 #include "render/frame_lights.h"
 #include "render/log/frame_columns.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <initializer_list>
 
-#include "render/quality.h"
+#include "settings/quality.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -22,23 +22,15 @@ int fewer_points(int asked, int count) {
 }
 
 void take_fewer(render::RenderSettings& settings, int rays, int downscale) {
-  const render::QualitySettings fast = render::quality_settings(render::Quality::fast);
-  settings.soft.error_255 = std::max(settings.soft.error_255, fast.soft_error);
-  settings.ao.error_255 = std::max(settings.ao.error_255, fast.ao_error);
+  const render::RenderSettings fast = settings::quality_settings(settings::Quality::fast);
+  settings.soft.error_255 = std::max(settings.soft.error_255, fast.soft.error_255);
+  settings.ao.error_255 = std::max(settings.ao.error_255, fast.ao.error_255);
   settings.ao.rays = std::min(settings.ao.rays, rays);
   settings.ao.downscale = std::max(settings.ao.downscale, downscale);
   settings.hard.variant = Variant::tiles;  // the same masks
 }
 
 }  // namespace
-
-bool PreviewSubject::operator==(const PreviewSubject& other) const {
-  return scene == other.scene && size.width == other.size.width && size.height == other.size.height &&
-         shadows == other.shadows && soft_points == other.soft_points && soft_error == other.soft_error &&
-         ao == other.ao && ao_error == other.ao_error && ao_rays == other.ao_rays &&
-         ao_downscale == other.ao_downscale && antialias == other.antialias && compares == other.compares &&
-         explains == other.explains;
-}
 
 PreviewSubject preview_subject(const void* scene, const render::RenderSettings& asked, bool compares,
                                bool explains) {
@@ -58,13 +50,13 @@ PreviewSubject preview_subject(const void* scene, const render::RenderSettings& 
 
 std::vector<PreviewLevel> preview_levels(const PreviewSubject& subject) {
   const bool soft = subject.shadows == render::ShadowMode::soft, occludes = subject.ao != AoMode::none;
-  const render::QualitySettings fast = render::quality_settings(render::Quality::fast);
+  const render::RenderSettings fast = settings::quality_settings(settings::Quality::fast);
   const bool has_fewer =
-      (soft &&
-       (subject.soft_points > 0 ? subject.soft_points > few_points : subject.soft_error < fast.soft_error)) ||
+      (soft && (subject.soft_points > 0 ? subject.soft_points > few_points
+                                        : subject.soft_error < fast.soft.error_255)) ||
       (occludes && (subject.ao == AoMode::adaptive
-                        ? subject.ao_error < fast.ao_error
-                        : subject.ao_rays > fast.ao_rays || subject.ao_downscale < fast.ao_downscale));
+                        ? subject.ao_error < fast.ao.error_255
+                        : subject.ao_rays > fast.ao.rays || subject.ao_downscale < fast.ao.downscale));
   const bool has_plain = occludes || (soft && subject.soft_points != 1);
   std::vector<PreviewLevel> levels{{PreviewMethod::as_asked, 1}};
   const auto add = [&](PreviewMethod method, std::initializer_list<int> divisors) {
@@ -88,7 +80,7 @@ render::RenderSettings preview_settings(const render::RenderSettings& asked, Pre
   render::RenderSettings settings = asked;
   settings.width = part_of(asked.width, level.divisor);
   settings.height = part_of(asked.height, level.divisor);
-  const render::QualitySettings fast = render::quality_settings(render::Quality::fast);
+  const render::RenderSettings fast = settings::quality_settings(settings::Quality::fast);
   if (level.method != PreviewMethod::as_asked) {
     settings.antialias = 1;
     settings.antialias_everywhere = false;
@@ -98,7 +90,7 @@ render::RenderSettings preview_settings(const render::RenderSettings& asked, Pre
     case PreviewMethod::single:
       break;
     case PreviewMethod::fewer:
-      take_fewer(settings, fast.ao_rays, fast.ao_downscale);
+      take_fewer(settings, fast.ao.rays, fast.ao.downscale);
       settings.soft_points = fewer_points(settings.soft_points, few_points);
       break;
     case PreviewMethod::cast:

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <tenebra/frame_geometry.h>
-#include "options/option_values.h"
 #include "render/renderer.h"
+#include "settings/values.h"
 
 namespace tenebra::viewer {
 
@@ -42,7 +42,7 @@ struct PreviewSubject {
   bool compares = false;  ///< draws a second method: no preview may take a method's place
   bool explains = false;  ///< has an overlay, which only the method that was asked for can fill
 
-  bool operator==(const PreviewSubject& other) const;
+  bool operator==(const PreviewSubject&) const = default;
 };
 PreviewSubject preview_subject(const void* scene, const render::RenderSettings& asked, bool compares,
                                bool explains);

@@ -21,7 +21,7 @@ TradeSearch::~TradeSearch() {
   thread_.join();
 }
 
-void TradeSearch::begin(FrameRequest request, std::string subject) {
+void TradeSearch::begin(FrameRequest request, TradeSubject subject) {
   const std::lock_guard lock(mutex_);
   work_ = Work{std::move(request), std::move(subject)};
   failure_.clear();

@@ -9,14 +9,35 @@
 #include <string>
 #include <thread>
 
+#include "options/settings_names.h"
 #include "trade/trade_run.h"
 #include "window/frames/frame_request.h"
 
 namespace tenebra::viewer {
 
+/// Equal where the same scene is seen by the same camera with the same edits.
+struct ViewKey {
+  const void* scene = nullptr;
+  int clip = -1, camera = 0;
+  std::optional<FreeCamera> free;  ///< none: the scene's camera
+  stage::SceneEdits edits;
+
+  bool operator==(const ViewKey&) const = default;
+};
+
+/// What a search is made for: what a reader of its result compares with what is shown then.
+struct TradeSubject {
+  ViewKey view;
+  double time_s = 0;
+  Size place;
+  MethodOptions method;  ///< without what is tried
+
+  bool operator==(const TradeSubject&) const = default;
+};
+
 /// What was found on a view.
 struct FoundTrade {
-  std::string subject;  ///< as it was given with the request
+  TradeSubject subject;  ///< as it was given with the request
   TradeResult result;
 };
 
@@ -35,9 +56,8 @@ public:
   TradeSearch(const TradeSearch&) = delete;
   TradeSearch& operator=(const TradeSearch&) = delete;
 
-  /// Begins anew, at the time that the request's clock shows when it was asked. `subject`: what a reader of
-  /// the result compares with what is shown then.
-  void begin(FrameRequest request, std::string subject);
+  /// Begins anew, at the time that the request's clock shows when it was asked.
+  void begin(FrameRequest request, TradeSubject subject);
   void stop();  ///< soon; nothing is found
   TradeStatus status() const;
   /// Why the last search found nothing, once; empty: it was stopped, or it has found something.
@@ -46,7 +66,7 @@ public:
 private:
   struct Work {
     FrameRequest request;
-    std::string subject;
+    TradeSubject subject;
   };
   void run();
   Expected<TradeResult> search(const FrameRequest& request);

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "window/panels/panels.h"
+#include "window/panels/setting_rows.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -13,22 +14,10 @@ constexpr std::array variants{Variant::tiles,        Variant::precise,        Va
                               Variant::precise_eatp, Variant::precise_seatp};
 constexpr std::array levels{SimdLevel::automatic, SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2,
                             SimdLevel::avx512};
-constexpr std::array bit_choices{Choice<int>{"1", 1}, Choice<int>{"8", 8}, Choice<int>{"32", 32}};
-
-bool number(Ui& ui, const char* name, int& value, int low, int high, int step) {
-  ImGui::PushID(name);
-  const bool changed =
-      ImGui::InputInt("##value", &value, step, step * 8, ImGuiInputTextFlags_EnterReturnsTrue);
-  ImGui::PopID();
-  ui.mark(name);
-  if (changed) value = std::clamp(value, low, high);
-  return changed;
-}
 
 void edit_hard(Ui& ui, MethodOptions& method) {
   HardShadowConfig& hard = method.render.hard;
-  row(ui, "Variant",
-      "Tiles (ours) or one of the seven of Olsson and Assarsson's Table 1; the mask is the same with each.");
+  setting_row(ui, "Variant", "variant");
   if (ImGui::BeginCombo("##variant", std::string(variant_name(hard.variant)).c_str())) {
     for (const Variant variant : variants) {
       const std::string name =
@@ -39,20 +28,17 @@ void edit_hard(Ui& ui, MethodOptions& method) {
     ImGui::EndCombo();
   }
   ui.mark("variant");
-  row(ui, "Samples",
-      "Where rays start: at exact points, from triangle ids, or as in the paper from the depth buffer.");
-  choose(ui, "samples", sample_choices, method.render.samples);
+  edit_words(ui, method, "Samples", "samples", "samples");
   if (method.render.samples == render::SampleSource::depth && method.render.ao.mode != AoMode::none) {
     method.render.ao.mode = AoMode::none;
   }
-  row(ui, "Cull", "front: only faces turned away from the light cast shadows; for closed meshes.");
+  setting_row(ui, "Cull", "cull");
   bool cull = method.cull_front.value_or(method.render.samples == render::SampleSource::depth);
   if (choose(ui, "cull", cull_choices, cull)) method.cull_front = cull;
 }
 
 void edit_light_size(Ui& ui, MethodOptions& method) {
-  row(ui, "Light size",
-      "Turns point and spot lights into rectangles of the same brightness. 0: they stay points.");
+  setting_row(ui, "Light size", "light-size");
   LightSize size = method.light_size.value_or(LightSize{});
   float metres[2] = {size.size.x, size.size.y};
   bool changed =
@@ -66,7 +52,7 @@ void edit_light_size(Ui& ui, MethodOptions& method) {
     if (size.size.x > 0 && size.size.y > 0) method.light_size = size;
     if (!method.light_size) method.render.area_lights.facing.reset();
   }
-  row(ui, "Sun size", "Diameter of directional lights. 0: hard shadows.");
+  setting_row(ui, "Sun size", "sun-size");
   std::optional<float>& sun = method.render.area_lights.sun_deg;
   bool own_sun = sun.has_value();
   if (ImGui::Checkbox("of all##sun", &own_sun)) {
@@ -81,10 +67,8 @@ void edit_light_size(Ui& ui, MethodOptions& method) {
     ui.mark("sun size");
   }
   if (!method.light_size) return;
-  row(ui, "Shining",
-      "point: in every direction as bright as the point; lambert: to one side, like a lamp's face.");
-  choose(ui, "emission", emission_choices, method.light_emission);
-  row(ui, "Facing", "The rectangles face the scene's centre, or this point.");
+  edit_words(ui, method, "Shining", "light-emission", "emission");
+  setting_row(ui, "Facing", "light-facing");
   std::optional<glm::vec3>& facing = method.render.area_lights.facing;
   bool own = facing.has_value();
   if (ImGui::Checkbox("a point", &own)) {
@@ -112,32 +96,26 @@ void limit_soft_memory(int mb, SoftShadowConfig& soft) {
 
 void edit_soft(Ui& ui, MethodOptions& method) {
   SoftShadowConfig& soft = method.render.soft;
-  row(ui, "Emissive", "Flat convex meshes with an emissive material are lights too.");
+  setting_row(ui, "Emissive", "emissive-lights");
   ImGui::Checkbox("quads shine##emissive", &method.render.area_lights.emissive_quads);
-  row(ui, "Solver",
-      "How the visible part of the light is found: the lazy BSP of Mora et al., clipping, or automatic.");
-  choose(ui, "solver", solver_choices, soft.solver);
-  row(ui, "Groups", "Points that are solved together.");
-  choose(ui, "grouping", grouping_choices, soft.grouping);
-  row(ui, "Occluder", "Which occluder the BSP takes next.");
-  choose(ui, "occluder", occluder_choices, soft.choice);
-  row(ui, "Precision", "reference: double precision throughout.");
-  choose(ui, "precision", precision_choices, soft.precision);
+  edit_words(ui, method, "Solver", "soft-solver", "solver");
+  edit_words(ui, method, "Groups", "soft-grouping", "grouping");
+  edit_words(ui, method, "Occluder", "soft-choice", "occluder");
+  edit_words(ui, method, "Precision", "soft-precision", "precision");
   row(ui, "Memory", "For BSPs of any size and candidates, in MB. 0: what the system has, and 4 for a BSP.");
   int memory_mb = soft_memory_mb(soft).value_or(0);
-  if (number(ui, "soft memory", memory_mb, 0, 1000000, 64)) limit_soft_memory(memory_mb, soft);
-  row(ui, "Error", "RMS over the penumbra, in 1/255; 0: exact. The cost section has the estimate.");
+  if (number_field(ui, "soft memory", memory_mb, 0, 1000000, 64)) limit_soft_memory(memory_mb, soft);
+  setting_row(ui, "Error", "soft-error");
   auto error = static_cast<float>(soft.error_255);
   if (ImGui::SliderFloat("##soft error", &error, 0.0f, 8.0f, error > 0 ? "%.1f / 255" : "exact",
                          ImGuiSliderFlags_AlwaysClamp))
     soft.error_255 = std::round(10 * double{error}) / 10;
   ui.mark("soft error");
-  row(ui, "Points", "Replaces the light by this many points with exact hard shadows. 0: as the error says.");
-  number(ui, "soft points", method.render.soft_points, 0, 4096, 4);
+  edit_number(ui, method, "Points", "soft-points", "soft points", 4);
 }
 
 void edit_distance(Ui& ui, AoConfig& ao) {
-  row(ui, "Distance", "Beyond it nothing occludes, in metres. 0: a twentieth of the scene's diagonal.");
+  setting_row(ui, "Distance", "ao-distance");
   ImGui::InputDouble("##distance", &ao.distance_m, 0, 0, ao.distance_m > 0 ? "%.3f m" : "automatic",
                      ImGuiInputTextFlags_EnterReturnsTrue);
   ui.mark("ao distance");
@@ -145,89 +123,67 @@ void edit_distance(Ui& ui, AoConfig& ao) {
 }
 
 void edit_error(Ui& ui, AoConfig& ao) {
-  row(ui, "Error",
-      "Error of the occlusion, RMS over the picture, in 1/255. The cost section has the estimate.");
+  setting_row(ui, "Error", "ao-error");
   auto error = static_cast<float>(ao.error_255);
   if (ImGui::SliderFloat("##ao error", &error, 0.5f, 8.0f, "%.1f / 255", ImGuiSliderFlags_AlwaysClamp))
     ao.error_255 = std::round(10 * double{error}) / 10;
   ui.mark("ao error");
 }
 
-void edit_ao(Ui& ui, AoConfig& ao) {
+void edit_ao(Ui& ui, MethodOptions& method) {
+  AoConfig& ao = method.render.ao;
   if (ao.mode == AoMode::adaptive) return;
-  row(ui, "At", "Where occlusion is computed; in the paper: at vertices.");
-  choose(ui, "place", place_choices, ao.place);
-  row(ui, "Rays", "Rays per point, distributed by the cosine.");
-  number(ui, "ao rays", ao.rays, 1, 65536, 16);
-  row(ui, "Downscale", "N computes one of N x N pixels; the others are blurred from similar ones.");
-  number(ui, "ao downscale", ao.downscale, 1, 8, 1);
+  edit_words(ui, method, "At", "ao-at", "place");
+  edit_number(ui, method, "Rays", "ao-rays", "ao rays", 16);
+  edit_number(ui, method, "Downscale", "ao-downscale", "ao downscale", 1);
   if (ao.mode != AoMode::field) return;
-  row(ui, "Layout",
-      "What a field stores: chords from entry to exit, or as in the paper positions x directions.");
-  choose(ui, "layout", layout_choices, ao.layout);
-  row(ui, "Positions", "Samples on an object's bounding sphere.");
-  number(ui, "ao positions", ao.positions, 1, 1 << 20, 256);
+  edit_words(ui, method, "Layout", "ao-layout", "layout");
+  edit_number(ui, method, "Positions", "ao-positions", "ao positions", 256);
   row(ui, "Directions", "Per position; a square number.");
   int side = static_cast<int>(std::lround(std::sqrt(ao.directions)));
-  if (number(ui, "ao directions", side, 1, 1024, 4)) ao.directions = side * side;
+  if (number_field(ui, "ao directions", side, 1, 1024, 4)) ao.directions = side * side;
   tooltip("The side of the square: 32 stands for 1024 directions.");
-  row(ui, "Bits", "Per stored distance.");
-  choose(ui, "bits", bit_choices, ao.bits);
-  row(ui, "Deforming", "Objects that deform have no field: rays are cast at them, or they are left out.");
-  choose(ui, "deforming", deforming_choices, ao.deforming);
-  row(ui, "Cache", "Folder that keeps trees, fields and surface samples for the next run.");
+  edit_words(ui, method, "Bits", "ao-bits", "bits");
+  edit_words(ui, method, "Deforming", "ao-deforming", "deforming");
+  setting_row(ui, "Cache", "ao-cache");
   bool kept = !ao.cache.empty();
   if (ImGui::Checkbox("keep fields and samples", &kept))
     ao.cache = kept ? default_cache_folder() : std::filesystem::path();
   if (kept) tooltip(ao.cache.c_str());
-  row(ui, "Memory", "Memory for fields and surface samples, in MB. For bodies without room rays are cast.");
-  number(ui, "ao memory", ao.memory_mb, 1, 1000000, 64);
-}
-
-/// The preset that has these settings; none if none has.
-std::optional<render::Quality> quality_of(const render::RenderSettings& render) {
-  for (const render::Quality quality : render::qualities) {
-    render::RenderSettings preset = render;
-    render::apply_quality(quality, preset);
-    if (preset.soft_points == render.soft_points && preset.soft.error_255 == render.soft.error_255 &&
-        preset.ao.rays == render.ao.rays && preset.ao.downscale == render.ao.downscale &&
-        preset.ao.error_255 == render.ao.error_255)
-      return quality;
-  }
-  return std::nullopt;
+  edit_number(ui, method, "Memory", "ao-memory", "ao memory", 64);
 }
 
 void choose_quality(Ui& ui, render::RenderSettings& render) {
-  row(ui, "Quality", "Accuracy of soft shadows and ambient occlusion. Sets errors, rays and downscale.");
-  std::array<const char*, render::qualities.size()> names;
+  setting_row(ui, "Quality", "quality");
+  std::array<const char*, settings::qualities.size()> names;
   for (std::size_t i = 0; i < names.size(); ++i)
-    names[i] = render::quality_name(render::qualities[i]).data();  // literals
-  const auto now = quality_of(render);
+    names[i] = settings::quality_name(settings::qualities[i]).data();  // literals
+  const auto now = settings::quality_of(render);
   int chosen = now ? static_cast<int>(*now) : -1;
   if (segments(ui, "quality", names.data(), static_cast<int>(names.size()), chosen))
-    render::apply_quality(render::qualities[static_cast<std::size_t>(chosen)], render);
+    settings::apply_quality(settings::qualities[static_cast<std::size_t>(chosen)], render);
 }
 
 void edit_display(Ui& ui, MethodOptions& method) {
   const SceneDisplay& display = ui.state.scene->display;
-  row(ui, "Exposure", "Multiplies all light.");
-  float exposure = method_settings(method, {}, display).exposure;
+  setting_row(ui, "Exposure", "exposure");
+  float exposure = render_settings(method, {}, display).exposure;
   if (ImGui::SliderFloat("##exposure", &exposure, 0.01f, 100.0f, method.auto_exposure ? "auto: %.3g" : "%.3g",
                          ImGuiSliderFlags_Logarithmic)) {
     method.render.exposure = exposure > 0 ? exposure : 1;
     method.auto_exposure = false;
   }
   ui.mark("exposure");
-  row(ui, "Tone", "How bright colours are fitted into the picture.");
+  setting_row(ui, "Tone", "tone");
   shade::Tone tone = tone_of(method, display.transfer);
   choose(ui, "tone", tone_choices, tone);
   if (tone != tone_of(method, display.transfer)) method.tone = tone;
 }
 
-void edit_machine(Ui& ui, render::RenderSettings& render) {
-  row(ui, "Threads", "0: all cores.");
-  number(ui, "threads", render.threads, 0, 1024, 1);
-  row(ui, "SIMD", "Vector instructions; the masks are the same with each.");
+void edit_machine(Ui& ui, MethodOptions& method) {
+  render::RenderSettings& render = method.render;
+  edit_number(ui, method, "Threads", "threads", "threads", 1);
+  setting_row(ui, "SIMD", "simd");
   if (ImGui::BeginCombo("##simd", std::string(simd_level_name(render.hard.simd)).c_str())) {
     for (const SimdLevel level : levels) {
       if (level != SimdLevel::automatic && !simd_level_supported(level)) continue;
@@ -306,16 +262,12 @@ void draw_method_section(Ui& ui) {
   choose_slot(ui);
   MethodOptions& method = state.method();
   choose_quality(ui, method.render);
-  row(ui, "Shadows");
-  choose(ui, "shadows", shadow_choices, method.render.shadows);
+  edit_words(ui, method, "Shadows", "shadows", "shadows");
   if (method.render.shadows == render::ShadowMode::soft) {
     settle_soft(method);
     edit_light_size(ui, method);
   }
-  row(ui, "Occlusion",
-      "Ambient occlusion: adaptive, to an error; by displacement fields of rigid objects; or by rays, for "
-      "comparison.");
-  choose(ui, "ao", ao_choices, method.render.ao.mode);
+  edit_words(ui, method, "Occlusion", "ao", "ao");
   if (method.render.ao.mode == AoMode::adaptive) edit_error(ui, method.render.ao);
   if (method.render.ao.mode != AoMode::none) {
     method.render.samples = render::SampleSource::ids;
@@ -333,8 +285,8 @@ void draw_research_section(Ui& ui) {
   MethodOptions& method = ui.state.method();
   if (method.render.shadows == render::ShadowMode::hard) edit_hard(ui, method);
   if (method.render.shadows == render::ShadowMode::soft) edit_soft(ui, method);
-  if (method.render.ao.mode != AoMode::none) edit_ao(ui, method.render.ao);
-  edit_machine(ui, method.render);
+  if (method.render.ao.mode != AoMode::none) edit_ao(ui, method);
+  edit_machine(ui, method);
   draw_cost_section(ui);
 }
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "options/choices.h"
+#include "settings/choices.h"
 #include "window/frame_history.h"
 #include "window/frames/explainer.h"
 #include "window/frames/render_worker.h"
@@ -33,7 +33,7 @@ struct Ui {
   float scale = 1;                        ///< of the display: 1 at 96 dots per inch
   const PictureAnswer* answer = nullptr;  ///< about a pixel; null: none was asked for
   TradeStatus trade{};
-  std::string_view trade_subject{};  ///< of a search that began now
+  TradeSubject trade_subject{};  ///< of a search that began now
 
   float px(float length) const { return length * scale; }
   /// The press of this key without Ctrl; null: none. `repeat`: holding it down counts too.

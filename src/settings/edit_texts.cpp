@@ -1,13 +1,13 @@
-#include "options/edit_texts.h"
+#include "settings/edit_texts.h"
 
 #include <algorithm>
 #include <array>
 #include <sstream>
 
 #include "base/fail.h"
-#include "options/option_values.h"
+#include "settings/text_values.h"
 
-namespace tenebra::viewer {
+namespace tenebra::settings {
 namespace {
 
 Expected<void> apply(const std::string& key, const std::string& value, stage::LightEdit& edit) {
@@ -78,10 +78,6 @@ struct LightKind {
 };
 constexpr std::array light_kinds{LightKind{"point", LightType::point}, LightKind{"spot", LightType::spot},
                                  LightKind{"directional", LightType::directional}};
-
-std::string vector_text(const glm::vec3& v) {
-  return fmt::format("{},{},{}", v.x, v.y, v.z);
-}
 
 /// The words after the first as KEY and VALUE.
 template <class Apply>
@@ -267,4 +263,4 @@ std::string setting_name(const EditOption& option) {
   return name;
 }
 
-}  // namespace tenebra::viewer
+}  // namespace tenebra::settings

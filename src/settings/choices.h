@@ -7,20 +7,9 @@
 
 #include "base/fail.h"
 #include "render/renderer.h"
+#include "settings/text_values.h"
 
-namespace tenebra::viewer {
-
-/// ASCII letters in lower case: users may write words in any case.
-inline std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return lower;
-}
-/// Whether `text` is `word` in any case.
-inline bool is_word(std::string_view text, std::string_view word) {
-  return lower_case(text) == lower_case(word);
-}
+namespace tenebra::settings {
 
 template <class T>
 struct Choice {
@@ -95,4 +84,4 @@ std::string choice_name(const std::array<Choice<T>, N>& choices, T value) {
   return "";
 }
 
-}  // namespace tenebra::viewer
+}  // namespace tenebra::settings

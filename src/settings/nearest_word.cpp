@@ -1,11 +1,11 @@
-#include "options/nearest_word.h"
+#include "settings/nearest_word.h"
 
 #include <algorithm>
 #include <vector>
 
-#include "options/choices.h"
+#include "settings/text_values.h"
 
-namespace tenebra::viewer {
+namespace tenebra::settings {
 namespace {
 
 /// How many letters must be added, dropped, changed or swapped with their neighbour to turn `a` into `b`
@@ -41,4 +41,4 @@ std::string nearest_word(std::string_view word, std::span<const std::string> kno
   return nearest;
 }
 
-}  // namespace tenebra::viewer
+}  // namespace tenebra::settings

@@ -7,7 +7,7 @@
 #include <tenebra/expected.h>
 #include "stage/edits/scene_edits.h"
 
-namespace tenebra::viewer {
+namespace tenebra::settings {
 
 /// "N KEY=VALUE ...": `1 on=0`, `0 intensity=2 move=0,1.5,0 size=0.5x0.3`. The edit of light N in `edits`,
 /// which grows as needed.
@@ -31,4 +31,4 @@ std::vector<EditOption> edit_options(const stage::SceneEdits& edits);
 /// "--set-light" as the name of a log's setting: "set_light".
 std::string setting_name(const EditOption& option);
 
-}  // namespace tenebra::viewer
+}  // namespace tenebra::settings

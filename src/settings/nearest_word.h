@@ -5,11 +5,11 @@
 #include <string>
 #include <string_view>
 
-namespace tenebra::viewer {
+namespace tenebra::settings {
 
 /// The word of `known` that is spelled most like `word`; "" if none is: more than a third of its letters
 /// would have to be added, dropped, changed or swapped with their neighbours. Of equals the first; case does
 /// not count.
 std::string nearest_word(std::string_view word, std::span<const std::string> known);
 
-}  // namespace tenebra::viewer
+}  // namespace tenebra::settings

@@ -1,29 +1,30 @@
 // The presets: what each sets, that it sets nothing else, and that exact is exact.
-#include "render/quality.h"
+#include "settings/quality.h"
 #include "render/render_fixture.h"
 
 namespace tenebra {
 namespace {
 
 TEST(Quality, NamesLeadBackToPresets) {
-  for (const render::Quality quality : render::qualities)
-    EXPECT_EQ(render::quality_from_name(render::quality_name(quality)), quality);
-  for (const char* name : {"", "Fast", "best", "exact "})
-    EXPECT_EQ(render::quality_from_name(name), std::nullopt);
+  for (const settings::Quality quality : settings::qualities)
+    EXPECT_EQ(settings::quality_of(settings::quality_settings(quality)), quality);
+  render::RenderSettings between = settings::quality_settings(settings::Quality::fast);
+  between.ao.rays = 17;
+  EXPECT_EQ(settings::quality_of(between), std::nullopt);
 }
 
 TEST(Quality, SetsWhatItStandsFor) {
   render::RenderSettings settings;
-  render::apply_quality(render::Quality::fast, settings);
+  settings::apply_quality(settings::Quality::fast, settings);
   EXPECT_EQ(settings.soft_points, 0);
   EXPECT_EQ(settings.soft.error_255, 4);
   EXPECT_EQ(settings.ao.rays, 16);
   EXPECT_EQ(settings.ao.downscale, 2);
-  render::apply_quality(render::Quality::exact, settings);
+  settings::apply_quality(settings::Quality::exact, settings);
   EXPECT_EQ(settings.soft_points, 0);
   EXPECT_EQ(settings.ao.rays, 256);
   EXPECT_EQ(settings.ao.downscale, 1);
-  render::apply_quality(render::Quality::balanced, settings);
+  settings::apply_quality(settings::Quality::balanced, settings);
   EXPECT_EQ(settings.soft_points, render::RenderSettings{}.soft_points);
   EXPECT_EQ(settings.ao.rays, AoConfig{}.rays);
   EXPECT_EQ(settings.ao.downscale, AoConfig{}.downscale);
@@ -36,8 +37,8 @@ TEST(Quality, LeavesAlone) {
   settings.soft.solver = SoftSolver::bsp;
   settings.ao.mode = AoMode::rays;
   settings.ao.positions = 99;
-  for (const render::Quality quality : render::qualities) {
-    render::apply_quality(quality, settings);
+  for (const settings::Quality quality : settings::qualities) {
+    settings::apply_quality(quality, settings);
     EXPECT_EQ(settings.width, 7);
     EXPECT_EQ(settings.shadows, render::ShadowMode::soft);
     EXPECT_EQ(settings.light, 3);
@@ -65,11 +66,11 @@ TEST(Quality, ExactAndBalancedShadowsHaveTheBitsOfTheDefault) {
     render::RenderSettings settings{.width = 121, .height = 91, .shadows = mode};
     settings.area_lights.size = {1, 1};
     const io::Image8 expected = picture(settings);
-    for (const render::Quality quality : {render::Quality::exact, render::Quality::balanced}) {
-      render::apply_quality(quality, settings);
-      EXPECT_EQ(picture(settings), expected) << render::quality_name(quality);
+    for (const settings::Quality quality : {settings::Quality::exact, settings::Quality::balanced}) {
+      settings::apply_quality(quality, settings);
+      EXPECT_EQ(picture(settings), expected) << settings::quality_name(quality);
     }
-    render::apply_quality(render::Quality::fast, settings);
+    settings::apply_quality(settings::Quality::fast, settings);
     if (mode == render::ShadowMode::hard) {
       EXPECT_EQ(picture(settings), expected) << "hard shadows are exact in every preset";
     } else {
@@ -82,7 +83,7 @@ TEST(Quality, BalancedOcclusionHasTheBitsOfTheDefault) {
   render::RenderSettings settings{.width = 81, .height = 61, .shadows = render::ShadowMode::none};
   settings.ao.mode = AoMode::field;
   const io::Image8 expected = picture(settings);
-  render::apply_quality(render::Quality::balanced, settings);
+  settings::apply_quality(settings::Quality::balanced, settings);
   EXPECT_EQ(picture(settings), expected);
 }
 

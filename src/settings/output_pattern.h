@@ -7,7 +7,7 @@
 
 #include <tenebra/expected.h>
 
-namespace tenebra::viewer {
+namespace tenebra::settings {
 
 /// A file name with at most one frame number: %d, or %0Nd padded with zeros to N digits, or two # or more,
 /// one for each digit; %% is a percent sign.
@@ -41,4 +41,4 @@ private:
   int digits_ = -1;  // -1: no number
 };
 
-}  // namespace tenebra::viewer
+}  // namespace tenebra::settings

@@ -1,10 +1,10 @@
-#include "options/output_pattern.h"
+#include "settings/output_pattern.h"
 
 #include <algorithm>
 
 #include "base/fail.h"
 
-namespace tenebra::viewer {
+namespace tenebra::settings {
 namespace {
 
 namespace fs = std::filesystem;
@@ -102,4 +102,4 @@ Expected<void> OutputPattern::prepare_folder() const {
   return {};
 }
 
-}  // namespace tenebra::viewer
+}  // namespace tenebra::settings

@@ -1,0 +1,216 @@
+#include "options/setting_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "base/fail.h"
+#include "options/output_table.h"
+#include "settings/nearest_word.h"
+
+namespace tenebra::viewer {
+namespace {
+
+using settings::About;
+using settings::Audience;
+using settings::Group;
+
+constexpr const char* paper_option = "--paper";
+constexpr const char* hidden = "";
+constexpr std::size_t help_width = 59;
+
+std::string title(Group group) {
+  return std::string(settings::group_title(group));
+}
+
+std::string help_text(const About& about, const std::string& standard) {
+  return standard.empty() ? std::string(about.help) : fmt::format("{} [{}]", about.help, standard);
+}
+
+std::string long_name(std::string_view name) {
+  return fmt::format("--{}", name);
+}
+
+/// "--soft-error" without its dashes.
+std::string setting_of(const CLI::Option& option) {
+  const auto& names = option.get_lnames();
+  return names.empty() ? "" : names.front();
+}
+
+/// The hidden settings of `command` that keys of `option` give.
+std::vector<std::pair<const About*, CLI::Option*>> settings_by(CLI::App& command, const std::string& option) {
+  std::vector<std::pair<const About*, CLI::Option*>> found;
+  for (CLI::Option* candidate : command.get_options(nullptr)) {
+    const About* about = about_of(setting_of(*candidate));
+    if (about != nullptr && candidate->get_group() == hidden &&
+        settings::given_as(*about).starts_with(option + " "))
+      found.emplace_back(about, candidate);
+  }
+  return found;
+}
+
+[[noreturn]] void refuse(const std::string& name, const std::string& what) {
+  throw CLI::ValidationError(name, what);
+}
+
+std::string known_keys(CLI::App& command, const std::string& text) {
+  std::vector<std::string> known;
+  for (const auto& [about, option] : settings_by(command, paper_option)) known.emplace_back(about->name);
+  const std::string nearest = settings::nearest_word(text.substr(0, text.find('=')), known);
+  return fmt::format("{}{}", fmt::join(known, ", "),
+                     nearest.empty() ? "" : fmt::format(" (did you mean {}?)", nearest));
+}
+
+void add_paper(CLI::App& command) {
+  if (command.get_option_no_throw(paper_option) != nullptr || settings_by(command, paper_option).empty())
+    return;
+  const auto read = [&command](const std::vector<std::string>& texts) {
+    for (const std::string& text : texts)
+      if (!read_key(command, paper_option, text, IfGiven::replace))
+        refuse(paper_option,
+               fmt::format("found {}, expected KEY=VALUE with one of {}", text, known_keys(command, text)));
+  };
+  command
+      .add_option_function<std::vector<std::string>>(
+          paper_option, read,
+          "A setting for the papers' experiments, listed by\n--help-paper; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE")
+      ->group(title(Group::run));
+  if (command.get_help_ptr() == nullptr) return;
+  command.set_help_all_flag("--help-paper", "List the settings of --paper")->group(title(Group::run));
+}
+
+void link_needs(CLI::App& command) {
+  for (CLI::Option* option : command.get_options(nullptr)) {
+    const About* about = about_of(setting_of(*option));
+    if (about == nullptr) continue;
+    if (CLI::Option* other = command.get_option_no_throw(long_name(about->needs))) option->needs(other);
+    if (CLI::Option* other = command.get_option_no_throw(long_name(about->excludes))) option->excludes(other);
+  }
+}
+
+}  // namespace
+
+std::string wrapped(std::string_view text) {
+  std::string lines;
+  std::size_t in_line = 0;
+  for (const std::string_view word : settings::split(text, ' ')) {
+    const bool fits = in_line == 0 || in_line + 1 + word.size() <= help_width;
+    if (!lines.empty()) lines += fits ? " " : "\n";
+    in_line = fits && in_line > 0 ? in_line + 1 + word.size() : word.size();
+    lines += word;
+  }
+  return lines;
+}
+
+AddedOption add_setting(CLI::App& command, const About& about, const std::string& standard, ReadTexts read) {
+  const std::string longer = long_name(about.name), help = wrapped(help_text(about, standard));
+  const std::string name = about.letter.empty() ? longer : fmt::format("-{},{}", about.letter, longer);
+  const auto read_all = [&command, longer, read](const std::vector<std::string>& texts) -> Expected<void> {
+    std::vector<std::string> own;
+    for (const std::string& text : texts)
+      if (!read_key(command, longer, text, IfGiven::replace)) own.push_back(text);
+    return own.empty() ? Expected<void>() : read(own);
+  };
+  AddedOption option = [&] {
+    if (about.is_switch)
+      return add_switch(
+          command, name, [read](bool on) { return read({on ? "true" : "false"}); }, help);
+    if (about.several || about.has_keys) return add_texts(command, name, read_all, help);
+    return add_reader(
+        command, name, [read](const std::string& text) { return read({text}); }, help);
+  }();
+  if (!about.is_switch) option.type_name(settings::value_name(about));
+  if (CLI::Option* of_help = command.get_help_ptr()) of_help->group(title(Group::first));
+  return option.group(settings::given_as(about) == longer + " " ? title(about.group) : hidden);
+}
+
+void complete_settings(CLI::App& command) {
+  add_paper(command);
+  link_needs(command);
+}
+
+settings::Given given_settings(const CLI::App& command) {
+  settings::Given given;
+  for (const CLI::Option* option : command.get_options())
+    if (option->count() > 0) given.insert(setting_of(*option));
+  return given;
+}
+
+bool read_key(CLI::App& command, const std::string& option, const std::string& text, IfGiven if_given) {
+  for (const auto& [about, target] : settings_by(command, option)) {
+    const std::string key = settings::given_as(*about).substr(option.size() + 1);
+    if (key.empty() || settings::lower_case(text.substr(0, key.size())) != key) continue;
+    if (if_given == IfGiven::leave && !target->empty()) return true;
+    try {
+      target->clear();
+      target->add_result(text.substr(key.size()));
+      target->run_callback();
+      return true;
+    } catch (const CLI::ValidationError& error) {
+      const std::string said = error.what(), before = long_name(about->name) + ": ";
+      refuse(settings::option_name(*about), said.starts_with(before) ? said.substr(before.size()) : said);
+    }
+  }
+  return false;
+}
+
+bool is_outdated(const CLI::Option& option) {
+  return option.get_group() == hidden && about_of(setting_of(option)) != nullptr;
+}
+
+std::string outdated_sentence(const std::string& name) {
+  return fmt::format("--{} is {}VALUE now; the old name goes with the next version", name,
+                     settings::given_as(*about_of(name)));
+}
+
+std::vector<std::string> outdated_uses(const CLI::App& command, std::span<char* const> arguments) {
+  std::vector<std::string> sentences;
+  for (const std::string_view argument : arguments) {
+    if (!argument.starts_with("--")) continue;
+    const std::string name(argument.substr(0, argument.find('=')));
+    const CLI::Option* option = command.get_option_no_throw(name);
+    if (option != nullptr && is_outdated(*option)) sentences.push_back(outdated_sentence(name.substr(2)));
+  }
+  return sentences;
+}
+
+bool is_quiet(const CLI::App& command) {
+  const CLI::Option* option = command.get_option_no_throw("--quiet");
+  return option != nullptr && !option->empty();
+}
+
+std::string did_you_mean(const CLI::App& command) {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : command.get_options())
+    if (option->get_group() != hidden)
+      for (const std::string& name : option->get_lnames()) known.push_back(name);
+  for (const std::string& argument : command.remaining()) {
+    if (!argument.starts_with("--")) continue;
+    const std::string nearest = settings::nearest_word(argument.substr(2, argument.find('=') - 2), known);
+    return nearest.empty() ? "" : fmt::format(" (did you mean --{}?)", nearest);
+  }
+  return "";
+}
+
+std::string paper_help(CLI::App& command) {
+  std::string text = fmt::format(
+      "Settings for the papers' experiments: tenebra {} --paper KEY=VALUE, which may be repeated. The "
+      "defaults are the\n"
+      "better methods; pictures are the same with most of these.\n\n",
+      command.get_name());
+  constexpr std::size_t column = 34;
+  for (const auto& [about, option] : settings_by(command, paper_option)) {
+    const std::string name = fmt::format("  {}={}", about->name, option->get_type_name());
+    std::string help = option->get_description();
+    for (std::size_t at = 0; (at = help.find('\n', at)) != std::string::npos; at += column + 1)
+      help.insert(at + 1, column, ' ');
+    const bool fits = name.size() < column;
+    text += fits ? fmt::format("{:<{}}{}\n", name, column, help)
+                 : fmt::format("{}\n{:{}}{}\n", name, "", column, help);
+  }
+  return text;
+}
+
+}  // namespace tenebra::viewer
