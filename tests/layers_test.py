@@ -15,6 +15,7 @@ MAY_INCLUDE = {
     "io": {"base"},
     "parallel": {"base"},
     "simd": {"base"},
+    "trees": {"base", "math", "simd", "parallel"},
     "scene": {"base", "math"},
     "formats": {"base", "io", "math", "scene"},
     "texture": {"base", "math", "simd", "scene"},
@@ -22,8 +23,8 @@ MAY_INCLUDE = {
     "points": {"base", "math", "simd", "parallel", "scene"},
     "shadow": {"base", "math", "simd", "parallel", "scene", "points"},
     "soft": {"base", "math", "simd", "parallel", "scene", "points"},  # and hard shadows by their public header
-    "tint": {"base", "math", "simd", "parallel", "scene", "texture", "points", "shadow", "soft"},
-    "ao": {"base", "io", "math", "simd", "parallel", "scene", "texture", "points"},
+    "tint": {"base", "math", "simd", "parallel", "scene", "texture", "points", "shadow", "soft", "trees"},
+    "ao": {"base", "io", "math", "simd", "parallel", "scene", "texture", "points", "trees"},
     "query": {"base", "math", "parallel", "scene", "points"},  # and the tracers by their public headers
     "host": {"base"},
     "c_api": {"base"},

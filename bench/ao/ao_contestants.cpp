@@ -7,7 +7,7 @@ namespace tenebra::bench {
 
 ObjectTree::ObjectTree(const Object& object) {
   base::Stopwatch watch;
-  bvh = ao::build_triangle_bvh(object.positions, object.triangles);
+  bvh = trees::build_triangle_bvh(object.positions, object.triangles);
   build_ms = watch.lap_ms();
   const ao::Ellipsoid sphere =
       ao::bounding_ellipsoid(object.positions, object.triangles, FieldLayout::positions_directions);
@@ -32,7 +32,7 @@ Expected<std::unique_ptr<BuiltField>> build_field(const Object& object, const Ob
 
 Tracer field_tracer(const BuiltField& built) {
   const auto nearest_hits = ao::field_kernels(SimdLevel::automatic).nearest_hits;
-  return [nearest_hits, placed = &built.placed](std::span<const ao::RayBatch> rays, float* distances) {
+  return [nearest_hits, placed = &built.placed](std::span<const trees::RayBatch> rays, float* distances) {
     nearest_hits(*placed, rays, distances);
   };
 }

@@ -13,7 +13,7 @@ namespace tenebra::bench {
 /// The tree that fields of one object are made with.
 struct ObjectTree {
   explicit ObjectTree(const Object& object);
-  ao::TriangleBvh bvh;
+  trees::TriangleBvh bvh;
   Ball ball;  ///< the bounding sphere of the paper's fields
   double build_ms = 0;
 };

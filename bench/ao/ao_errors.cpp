@@ -24,7 +24,7 @@ struct Subject {
   AoPeer peer;
   std::vector<Receiver> corner, floor, air;
   std::vector<float> corner_truth, floor_truth, air_truth;
-  std::vector<ao::RayBatch> corner_rays;  // those that may meet the sphere
+  std::vector<trees::RayBatch> corner_rays;  // those that may meet the sphere
 
   Subject(const Object& of, const AoSession& session) : object(of), tree(of), peer(of) {
     const CosineRays many(session.by_effort(256, 4096, 4096), 1), few(ray_count, 2);

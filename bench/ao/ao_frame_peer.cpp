@@ -77,7 +77,7 @@ std::vector<float> FramePeer::at(std::span<const std::size_t> pixels, int rays) 
 
 void FramePeer::tile(const Grid& grid, int number, const CosineRays& rays, const Tracer& tracer,
                      std::span<float> values) const {
-  std::vector<ao::RayBatch> batches(static_cast<std::size_t>(rays.count() / ao::batch_size));
+  std::vector<trees::RayBatch> batches(static_cast<std::size_t>(rays.count() / trees::batch_size));
   std::vector<float> t(static_cast<std::size_t>(rays.count()));
   const int x0 = number % grid.columns * Grid::tile, y0 = number / grid.columns * Grid::tile;
   for (int y = y0; y < std::min(y0 + Grid::tile, grid.height); ++y) {

@@ -23,7 +23,7 @@ struct Level {
   explicit Level(Object of) : object(std::move(of)), tree(object), peer(object) {}
 };
 
-void race_levels(std::vector<std::unique_ptr<Level>>& levels, std::span<const ao::RayBatch> rays,
+void race_levels(std::vector<std::unique_ptr<Level>>& levels, std::span<const trees::RayBatch> rays,
                  int rounds) {
   std::vector<Racer> racers;
   for (const auto& level : levels) {

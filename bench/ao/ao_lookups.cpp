@@ -46,7 +46,7 @@ Expected<void> measure_object(AoSession& session, const Object& object,
                             {"embree, coherent packets", peer.packets(true)}};
   const auto points = points_around(tree.ball, session.by_effort(20, 1500, 4000));
   const auto rays = batches_towards(points, CosineRays(256, 6), tree.ball.centre, tree.ball.radius);
-  const double count = static_cast<double>(rays.size()) * ao::batch_size;
+  const double count = static_cast<double>(rays.size()) * trees::batch_size;
   for (const int threads : {1, thread_count()}) {
     with_threads(threads, [&] { race(racers, rays, session.by_effort(1, 5, 9)); });
     std::vector<std::string> row{object.name, fmt::format("{}", threads)};

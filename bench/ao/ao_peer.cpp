@@ -14,31 +14,31 @@ RTCRayHit ray_of(glm::vec3 o, glm::vec3 d, float from, float to) {
   return ray;
 }
 
-void trace_single(RTCScene scene, const ao::RayBatch& rays, float from, float* distance) {
+void trace_single(RTCScene scene, const trees::RayBatch& rays, float from, float* distance) {
   ao::EmbreeQuery query;
-  for (int i = 0; i < ao::batch_size; ++i) {
+  for (int i = 0; i < trees::batch_size; ++i) {
     RTCRayHit ray = ray_of(rays.origin(i), rays.direction(i), from, distance[i]);
     query.intersect1(scene, ray);
     distance[i] = ray.ray.tfar;
   }
 }
 
-void trace_packet(RTCScene scene, const ao::RayBatch& rays, float from, bool coherent, float* distance) {
+void trace_packet(RTCScene scene, const trees::RayBatch& rays, float from, bool coherent, float* distance) {
   RTCRayHit16 packet;
-  alignas(64) int valid[ao::batch_size];
-  std::fill(valid, valid + ao::batch_size, -1);
+  alignas(64) int valid[trees::batch_size];
+  std::fill(valid, valid + trees::batch_size, -1);
   const auto copy = [](const float* from_row, float* to) {
-    std::copy(from_row, from_row + ao::batch_size, to);
+    std::copy(from_row, from_row + trees::batch_size, to);
   };
   copy(rays.ox, packet.ray.org_x), copy(rays.oy, packet.ray.org_y), copy(rays.oz, packet.ray.org_z);
   copy(rays.dx, packet.ray.dir_x), copy(rays.dy, packet.ray.dir_y), copy(rays.dz, packet.ray.dir_z);
   copy(distance, packet.ray.tfar);
-  std::fill(packet.ray.tnear, packet.ray.tnear + ao::batch_size, from);
-  std::fill(packet.ray.time, packet.ray.time + ao::batch_size, 0.0f);
-  std::fill(packet.ray.mask, packet.ray.mask + ao::batch_size, ~0u);
-  std::fill(packet.ray.flags, packet.ray.flags + ao::batch_size, 0u);
-  std::fill(packet.hit.geomID, packet.hit.geomID + ao::batch_size, RTC_INVALID_GEOMETRY_ID);
-  std::fill(packet.hit.instID[0], packet.hit.instID[0] + ao::batch_size, RTC_INVALID_GEOMETRY_ID);
+  std::fill(packet.ray.tnear, packet.ray.tnear + trees::batch_size, from);
+  std::fill(packet.ray.time, packet.ray.time + trees::batch_size, 0.0f);
+  std::fill(packet.ray.mask, packet.ray.mask + trees::batch_size, ~0u);
+  std::fill(packet.ray.flags, packet.ray.flags + trees::batch_size, 0u);
+  std::fill(packet.hit.geomID, packet.hit.geomID + trees::batch_size, RTC_INVALID_GEOMETRY_ID);
+  std::fill(packet.hit.instID[0], packet.hit.instID[0] + trees::batch_size, RTC_INVALID_GEOMETRY_ID);
   ao::EmbreeQuery(coherent ? ao::EmbreeQuery::coherent : ao::EmbreeQuery::incoherent)
       .intersect16(valid, scene, packet);
   copy(packet.ray.tfar, distance);
@@ -59,15 +59,16 @@ PeerHit AoPeer::nearest(glm::vec3 origin, glm::vec3 direction) const {
 }
 
 Tracer AoPeer::single_rays(float from) const {
-  return [scene = scene_.get(), from](std::span<const ao::RayBatch> rays, float* t) {
-    for (std::size_t b = 0; b < rays.size(); ++b) trace_single(scene, rays[b], from, t + b * ao::batch_size);
+  return [scene = scene_.get(), from](std::span<const trees::RayBatch> rays, float* t) {
+    for (std::size_t b = 0; b < rays.size(); ++b)
+      trace_single(scene, rays[b], from, t + b * trees::batch_size);
   };
 }
 
 Tracer AoPeer::packets(bool coherent, float from) const {
-  return [scene = scene_.get(), from, coherent](std::span<const ao::RayBatch> rays, float* t) {
+  return [scene = scene_.get(), from, coherent](std::span<const trees::RayBatch> rays, float* t) {
     for (std::size_t b = 0; b < rays.size(); ++b)
-      trace_packet(scene, rays[b], from, coherent, t + b * ao::batch_size);
+      trace_packet(scene, rays[b], from, coherent, t + b * trees::batch_size);
   };
 }
 

@@ -32,14 +32,14 @@ double cost_ms(const std::function<void()>& work) {
   return clock.ms();
 }
 
-double trace_ms(std::span<const ao::RayBatch> batches, const Tracer& tracer) {
+double trace_ms(std::span<const trees::RayBatch> batches, const Tracer& tracer) {
   CostClock clock;
   std::vector<float> kept(batches.size());
   parallel::parallel_ranges(batches.size(), 512, [&](std::size_t first, std::size_t last) {
     for (std::size_t b = first; b < last; b += at_once) {
       const std::size_t count = std::min(at_once, last - b);
-      float t[at_once * ao::batch_size];
-      std::fill(t, t + count * ao::batch_size, std::numeric_limits<float>::infinity());
+      float t[at_once * trees::batch_size];
+      std::fill(t, t + count * trees::batch_size, std::numeric_limits<float>::infinity());
       tracer(batches.subspan(b, count), t);
       kept[b] = t[0];  // so that the work is needed
     }
@@ -47,7 +47,7 @@ double trace_ms(std::span<const ao::RayBatch> batches, const Tracer& tracer) {
   return clock.ms();
 }
 
-void race(std::span<Racer> racers, std::span<const ao::RayBatch> rays, int rounds) {
+void race(std::span<Racer> racers, std::span<const trees::RayBatch> rays, int rounds) {
   // One thread: 512 batches, some 0.05 ms of look-ups and 1 ms of Embree. More threads want work to share.
   const std::size_t slice = thread_count() == 1 ? 512 : 8192, slices = (rays.size() + slice - 1) / slice;
   std::vector<std::vector<double>> times(racers.size() * slices);

@@ -26,7 +26,7 @@ private:
 double cost_ms(const std::function<void()>& work);
 
 /// Cost of `tracer` for all batches.
-double trace_ms(std::span<const ao::RayBatch> batches, const Tracer& tracer);
+double trace_ms(std::span<const trees::RayBatch> batches, const Tracer& tracer);
 
 struct Racer {
   std::string name;
@@ -37,6 +37,6 @@ struct Racer {
 /// Cuts the rays into slices of less than a scheduler's; all racers take a slice in turn, then the next, and
 /// all of it `rounds` times (and once before to warm up). A racer's time is the sum of the slices' medians.
 /// On the threads that the caller allows.
-void race(std::span<Racer> racers, std::span<const ao::RayBatch> rays, int rounds);
+void race(std::span<Racer> racers, std::span<const trees::RayBatch> rays, int rounds);
 
 }  // namespace tenebra::bench

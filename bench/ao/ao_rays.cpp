@@ -29,9 +29,11 @@ std::vector<dvec2> lattice(int count) {
   std::vector<dvec2> points;
   for (int i = 0; i < count; ++i)
     points.emplace_back((i + 0.5) / count, std::fmod((i + 0.5) / std::numbers::phi, 1.0));
-  const int blocks = count / ao::batch_size, columns = static_cast<int>(std::lround(std::sqrt(blocks)));
+  const int blocks = count / trees::batch_size, columns = static_cast<int>(std::lround(std::sqrt(blocks)));
   for (int c = 0; c < columns; ++c) {
-    const auto at = [&](int column) { return points.begin() + ao::batch_size * (blocks * column / columns); };
+    const auto at = [&](int column) {
+      return points.begin() + trees::batch_size * (blocks * column / columns);
+    };
     std::sort(at(c), at(c + 1), [](const dvec2& a, const dvec2& b) { return a.y < b.y; });
   }
   return points;
@@ -60,14 +62,14 @@ CosineRays::CosineRays(int count, std::uint64_t seed) : seed_(seed) {
   for (const dvec2& p : lattice(count)) directions_.push_back(cosine_direction(p.x, p.y));
 }
 
-void CosineRays::batches(const Receiver& receiver, std::size_t index, std::span<ao::RayBatch> out) const {
+void CosineRays::batches(const Receiver& receiver, std::size_t index, std::span<trees::RayBatch> out) const {
   const std::uint64_t hash = mixed(seed_, index);
   const auto turn = static_cast<float>(static_cast<double>(hash >> 11) * 0x1p-53 * 2 * std::numbers::pi);
   const auto [u, v] = turned_tangents(receiver.normal, turn);
   const vec3 p = receiver.position, n = receiver.normal;
   for (std::size_t i = 0; i < directions_.size(); ++i) {
     const vec3 d = directions_[i];
-    out[i / ao::batch_size].set(static_cast<int>(i % ao::batch_size), p, d.x * u + d.y * v + d.z * n);
+    out[i / trees::batch_size].set(static_cast<int>(i % trees::batch_size), p, d.x * u + d.y * v + d.z * n);
   }
 }
 
@@ -75,7 +77,7 @@ std::vector<float> occlusion(std::span<const Receiver> receivers, const CosineRa
                              const Tracer& tracer) {
   std::vector<float> result(receivers.size());
   parallel::parallel_ranges(receivers.size(), 32, [&](std::size_t first, std::size_t last) {
-    std::vector<ao::RayBatch> batches(static_cast<std::size_t>(rays.count() / ao::batch_size));
+    std::vector<trees::RayBatch> batches(static_cast<std::size_t>(rays.count() / trees::batch_size));
     std::vector<float> t(static_cast<std::size_t>(rays.count()));
     for (std::size_t r = first; r < last; ++r) {
       rays.batches(receivers[r], r, batches);
@@ -89,21 +91,22 @@ std::vector<float> occlusion(std::span<const Receiver> receivers, const CosineRa
   return result;
 }
 
-std::vector<ao::RayBatch> batches_towards(std::span<const Receiver> receivers, const CosineRays& rays,
-                                          glm::dvec3 centre, double radius) {
-  std::vector<ao::RayBatch> result, own(static_cast<std::size_t>(rays.count() / ao::batch_size));
+std::vector<trees::RayBatch> batches_towards(std::span<const Receiver> receivers, const CosineRays& rays,
+                                             glm::dvec3 centre, double radius) {
+  std::vector<trees::RayBatch> result, own(static_cast<std::size_t>(rays.count() / trees::batch_size));
   int filled = 0;
   for (std::size_t r = 0; r < receivers.size(); ++r) {
     rays.batches(receivers[r], r, own);
     for (int i = 0; i < rays.count(); ++i) {
-      const ao::RayBatch& batch = own[static_cast<std::size_t>(i / ao::batch_size)];
-      const vec3 origin = batch.origin(i % ao::batch_size), direction = batch.direction(i % ao::batch_size);
+      const trees::RayBatch& batch = own[static_cast<std::size_t>(i / trees::batch_size)];
+      const vec3 origin = batch.origin(i % trees::batch_size),
+                 direction = batch.direction(i % trees::batch_size);
       const glm::dvec3 to = centre - glm::dvec3(origin), d = glm::normalize(glm::dvec3(direction));
       const double along = glm::dot(to, d), square = glm::dot(to, to);
       if (square > radius * radius && (along <= 0 || square - along * along >= radius * radius)) continue;
       if (filled == 0) result.emplace_back();
       result.back().set(filled, origin, direction);
-      filled = (filled + 1) % ao::batch_size;
+      filled = (filled + 1) % trees::batch_size;
     }
   }
   if (filled != 0) result.pop_back();

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "ao/cast/ray_batch.h"
+#include "trees/ray_batch.h"
 
 namespace tenebra::bench {
 
@@ -30,7 +30,7 @@ public:
   CosineRays(int count, std::uint64_t seed);
   int count() const { return static_cast<int>(directions_.size()); }
   /// Fills count() / 16 batches with the rays of receiver number `index`.
-  void batches(const Receiver& receiver, std::size_t index, std::span<ao::RayBatch> out) const;
+  void batches(const Receiver& receiver, std::size_t index, std::span<trees::RayBatch> out) const;
 
 private:
   std::uint64_t seed_;
@@ -39,7 +39,7 @@ private:
 
 /// Traces any number of rays: distances[i] becomes the t of ray i's nearest hit if that is less, else it
 /// stays.
-using Tracer = std::function<void(std::span<const ao::RayBatch>, float* distances)>;
+using Tracer = std::function<void(std::span<const trees::RayBatch>, float* distances)>;
 
 /// 1 closed .. 0 open, one per receiver, with linear fall-off to nothing at `distance`. On all threads; the
 /// same bits for any number.
@@ -47,8 +47,8 @@ std::vector<float> occlusion(std::span<const Receiver> receivers, const CosineRa
                              const Tracer& tracer);
 
 /// Rays of all receivers that may meet a sphere, filled up to whole batches in order.
-std::vector<ao::RayBatch> batches_towards(std::span<const Receiver> receivers, const CosineRays& rays,
-                                          glm::dvec3 centre, double radius);
+std::vector<trees::RayBatch> batches_towards(std::span<const Receiver> receivers, const CosineRays& rays,
+                                             glm::dvec3 centre, double radius);
 
 /// Root of the mean square of the difference, in 1/255.
 double rms_255(std::span<const float> a, std::span<const float> b);

@@ -27,7 +27,7 @@ struct Corner {
   AoPeer peer;
   std::vector<Receiver> receivers;
   std::vector<float> truth;
-  std::vector<ao::RayBatch> rays;
+  std::vector<trees::RayBatch> rays;
 
   Corner(const Object& of, int truth_rays)
       : object(of), tree(of), peer(of), receivers(corner_receivers(tree.ball)) {
@@ -99,7 +99,7 @@ Expected<void> measure_growth_of(PaperSession& session, AoFindings& found) {
                            session.by_effort(1, 3, 5));
     if (!cost) return tl::unexpected(cost.error());
     found.growth.push_back({static_cast<double>(object.triangles.size()),
-                            static_cast<double>(corner.rays.size()) * ao::batch_size, cost->bytes,
+                            static_cast<double>(corner.rays.size()) * trees::batch_size, cost->bytes,
                             cost->build_ms, cost->lookup_ms,
                             trace_ms(corner.rays, corner.peer.packets(false))});
   }
@@ -126,15 +126,15 @@ Expected<void> measure_mixed(PaperSession& session, const Corner& corner, AoFind
                                           places[static_cast<std::size_t>(i)], ao::FieldEnds::first);
       if (placed) instances.push_back(*placed);
     }
-    return [=](std::span<const ao::RayBatch> rays, float* distances) {
+    return [=](std::span<const trees::RayBatch> rays, float* distances) {
       for (const ao::FieldInstance& instance : instances) nearest_hits(instance, rays, distances);
     };
   };
-  const auto exact = [&](std::span<const ao::RayBatch> rays, float* distances) {
-    std::vector<ao::RayBatch> moved(rays.begin(), rays.end());
+  const auto exact = [&](std::span<const trees::RayBatch> rays, float* distances) {
+    std::vector<trees::RayBatch> moved(rays.begin(), rays.end());
     for (const glm::dmat4& place : places) {
       for (std::size_t b = 0; b < rays.size(); ++b)
-        for (int i = 0; i < ao::batch_size; ++i)
+        for (int i = 0; i < trees::batch_size; ++i)
           moved[b].set(i, rays[b].origin(i) - glm::vec3(place[3]), rays[b].direction(i));
       corner.peer.packets(false)(moved, distances);
     }

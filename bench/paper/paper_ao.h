@@ -27,7 +27,7 @@ class MappedField {
 public:
   MappedField(const AoPeer& peer, const Ball& ball, DirectionMap map, int position_side, int direction_side);
   /// Looks rays up that start outside the sphere.
-  void nearest(std::span<const ao::RayBatch> rays, float* distances) const;
+  void nearest(std::span<const trees::RayBatch> rays, float* distances) const;
 
 private:
   Ball ball_;

@@ -82,12 +82,12 @@ MappedField::MappedField(const AoPeer& peer, const Ball& ball, DirectionMap map,
   });
 }
 
-void MappedField::nearest(std::span<const ao::RayBatch> rays, float* distances) const {
+void MappedField::nearest(std::span<const trees::RayBatch> rays, float* distances) const {
   const auto cells = static_cast<std::size_t>(direction_side_ * direction_side_);
-  for (std::size_t i = 0; i < rays.size() * ao::batch_size; ++i) {
-    const ao::RayBatch& batch = rays[i / ao::batch_size];
-    const vec3 origin = batch.origin(static_cast<int>(i % ao::batch_size)),
-               d = batch.direction(static_cast<int>(i % ao::batch_size));
+  for (std::size_t i = 0; i < rays.size() * trees::batch_size; ++i) {
+    const trees::RayBatch& batch = rays[i / trees::batch_size];
+    const vec3 origin = batch.origin(static_cast<int>(i % trees::batch_size)),
+               d = batch.direction(static_cast<int>(i % trees::batch_size));
     const glm::dvec3 to = ball_.centre - glm::dvec3(origin);
     const double along = glm::dot(to, glm::dvec3(d));
     const double root = ball_.radius * ball_.radius - glm::dot(to, to) + along * along;

@@ -7,7 +7,7 @@
 #include "points/sample_points.h"
 #include "points/triangle_corners.h"
 #include "texture/transmittance.h"
-#include "tint/surfaces.h"
+#include "tint/panes.h"
 
 namespace tenebra::render {
 namespace {

@@ -8,6 +8,7 @@
 #include "points/contact_rule.h"
 #include "points/triangle_corners.h"
 #include "shadow/tiles/distant_face.h"
+#include "tint/tint_kernels.h"
 
 namespace tenebra::tint {
 namespace {
@@ -18,13 +19,13 @@ using glm::dvec3;
 struct Frame {
   const VisiblePoints& points;
   const points::PointTiles& tiles;
-  const Surfaces& surfaces;
-  const TriangleTree& tree;
+  const Panes& panes;
+  const PaneTree& tree;
   LazyPlanes& planes;
   const ShadowMask& mask;
   CrossingFrame crossing;
   points::TilePixels pixels;
-  TintKernels kernels;
+  RaysCrossing rays_crossing;
 };
 
 /// A triangle that rays of a tile cross.
@@ -52,10 +53,10 @@ public:
   TintStats stats;
 
 private:
-  Shaft shaft_to_light(const Box& box) const;
-  Shaft shaft_of(const points::PointSquare& square, std::uint32_t tiles) const;
-  Shaft shaft_of_lanes(std::uint32_t lanes) const;
-  int seek(const Shaft& shaft);
+  trees::BoxShaft shaft_to_light(const math::Box<double>& box) const;
+  trees::BoxShaft shaft_of(const points::PointSquare& square, std::uint32_t tiles) const;
+  trees::BoxShaft shaft_of_lanes(std::uint32_t lanes) const;
+  int seek(const trees::BoxShaft& shaft);
   std::uint32_t lit_lanes(std::uint32_t tile, std::uint32_t lanes) const;
   void take_tiles(const points::PointSquare& square, std::uint32_t tiles);
   void take_tile(std::uint32_t tile, std::uint32_t lanes);
@@ -67,7 +68,7 @@ private:
 
   const Frame& f_;
   std::uint32_t lit_[16] = {};  ///< lanes of the square's tiles that ask
-  std::vector<TriangleTree::Found> near_;
+  std::vector<trees::BlockTriangles> near_;
   std::vector<Crossed> crossed_;
   std::vector<float> factors_[3];
   SampleTile tile_{};
@@ -75,30 +76,31 @@ private:
 };
 
 /// Of a box from a point, at most: along the axis on which it is farthest.
-double least_distance(const Box& box, const dvec3& p) {
+double least_distance(const math::Box<double>& box, const dvec3& p) {
   const dvec3 d = glm::max(box.low - p, p - box.high);
   return std::max({d.x, d.y, d.z});
 }
 
 /// From points in a box to the light.
-Shaft Worker::shaft_to_light(const Box& box) const {
+trees::BoxShaft Worker::shaft_to_light(const math::Box<double>& box) const {
   const shadow::RaySource& source = f_.crossing.source;
   const dvec3 light(source.light);
-  if (!source.directional && !source.distant) return shaft_between(box, {light, light});
+  if (!source.directional && !source.distant) return trees::shaft_between(box, {light, light});
   // Towards the light until all triangles are passed.
-  const Box& all = f_.tree.box();
+  const math::Box<double>& all = f_.tree.box();
   const dvec3 way = glm::max(glm::abs(all.high - box.low), glm::abs(box.high - all.low));
   const double length = 1.0000001 * std::sqrt(glm::dot(way, way));
   if (source.directional)
-    return shaft_between(box, {box.low - source.travel * length, box.high - source.travel * length});
+    return trees::shaft_between(box, {box.low - source.travel * length, box.high - source.travel * length});
   const double share = length / least_distance(box, light);
-  if (!(share < 1)) return shaft_between(box, {light, light});
-  return shaft_between(box, {box.low + share * (light - box.low), box.high + share * (light - box.high)});
+  if (!(share < 1)) return trees::shaft_between(box, {light, light});
+  return trees::shaft_between(box,
+                              {box.low + share * (light - box.low), box.high + share * (light - box.high)});
 }
 
 /// From tiles of a square. Their boxes are relative to its base, and a point's q is rounded.
-Shaft Worker::shaft_of(const points::PointSquare& square, std::uint32_t tiles) const {
-  Box box;
+trees::BoxShaft Worker::shaft_of(const points::PointSquare& square, std::uint32_t tiles) const {
+  math::Box<double> box;
   for (; tiles != 0; tiles &= tiles - 1) {
     const int i = std::countr_zero(tiles);
     box.add({dvec3(square.low[0][i], square.low[1][i], square.low[2][i]),
@@ -111,18 +113,18 @@ Shaft Worker::shaft_of(const points::PointSquare& square, std::uint32_t tiles) c
 }
 
 /// From samples of the tile that is loaded.
-Shaft Worker::shaft_of_lanes(std::uint32_t lanes) const {
-  Box box;
+trees::BoxShaft Worker::shaft_of_lanes(std::uint32_t lanes) const {
+  math::Box<double> box;
   for (; lanes != 0; lanes &= lanes - 1) box.add(tile_.points[std::countr_zero(lanes)]);
   return shaft_to_light(box);
 }
 
 /// Fills near_; returns the number of its triangles.
-int Worker::seek(const Shaft& shaft) {
+int Worker::seek(const trees::BoxShaft& shaft) {
   near_.clear();
   f_.tree.find(shaft, near_);
   int triangles = 0;
-  for (const TriangleTree::Found& leaf : near_) triangles += std::popcount(leaf.met);
+  for (const trees::BlockTriangles& some : near_) triangles += std::popcount(some.lanes);
   return triangles;
 }
 
@@ -148,7 +150,7 @@ void Worker::take_square(const points::PointSquare& square) {
 }
 
 void Worker::take_tiles(const points::PointSquare& square, std::uint32_t tiles) {
-  const Shaft around = shaft_of(square, tiles);
+  const trees::BoxShaft around = shaft_of(square, tiles);
   const int triangles = seek(around);
   if (triangles == 0) return;
   for (const std::uint32_t all = tiles; tiles != 0; tiles &= tiles - 1) {
@@ -164,7 +166,7 @@ void Worker::take_tile(std::uint32_t tile, std::uint32_t lanes) {
   crossed_.clear();
   load(tile, lanes);
   int triangles = 0;
-  for (const TriangleTree::Found& leaf : near_) triangles += std::popcount(leaf.met);
+  for (const trees::BlockTriangles& some : near_) triangles += std::popcount(some.lanes);
   if (triangles <= few_for_samples) {
     test(lanes);
   } else {
@@ -186,13 +188,13 @@ void Worker::take_lanes(std::uint32_t lanes) {
 
 /// Adds to crossed_ what rays of `lanes` cross of near_.
 void Worker::test(std::uint32_t lanes) {
-  for (const TriangleTree::Found& leaf : near_) {
-    for (std::uint32_t met = leaf.met; met != 0; met &= met - 1) {
-      const std::uint32_t number = f_.tree.number(leaf.leaf, std::countr_zero(met));
+  for (const trees::BlockTriangles& some : near_) {
+    for (std::uint32_t met = some.lanes; met != 0; met &= met - 1) {
+      const std::uint32_t number = f_.tree.number(some.block, std::countr_zero(met));
       const shadow::TrianglePlanes& planes = f_.planes.of(number, f_.crossing, room_);
       if (planes.side == 0) continue;
       ++stats.tests;
-      LanesFound found_lanes = f_.kernels.rays_crossing(planes, tile_);
+      LanesFound found_lanes = f_.rays_crossing(planes, tile_);
       found_lanes.sure &= lanes, found_lanes.open &= lanes;
       const std::uint32_t crossing = lanes_crossing(f_.crossing, planes, tile_, found_lanes, stats.exact);
       stats.crossings += static_cast<std::uint64_t>(std::popcount(crossing));
@@ -229,12 +231,12 @@ glm::vec3 Worker::product(int lane) {
   for (std::vector<float>& factors : factors_) factors.clear();
   for (const Crossed& c : crossed_) {
     if ((c.lanes >> lane & 1u) == 0) continue;
-    glm::vec3 passed = f_.surfaces.constant(c.number);
-    if (f_.surfaces.varies(c.number)) {
+    glm::vec3 passed = f_.panes.constant(c.number);
+    if (f_.panes.varies(c.number)) {
       const shadow::RaySource& source = f_.crossing.source;
-      const points::Corners corners = points::corners_of(f_.crossing.triangles, f_.surfaces.ids()[c.number]);
+      const points::Corners corners = points::corners_of(f_.crossing.triangles, f_.panes.ids()[c.number]);
       const dvec3& from = tile_.points[lane];
-      passed = f_.surfaces.transmittance(
+      passed = f_.panes.transmittance(
           c.number,
           weights_where(corners.v, from, source.directional ? -source.travel : dvec3(source.light) - from));
     }
@@ -252,10 +254,10 @@ void Worker::multiply(std::uint32_t tile) {
   std::uint32_t lanes = 0;
   for (const Crossed& c : crossed_) lanes |= c.lanes;
   // One pane of one colour before all of them.
-  const bool plain = crossed_.size() == 1 && !f_.surfaces.varies(crossed_[0].number);
+  const bool plain = crossed_.size() == 1 && !f_.panes.varies(crossed_[0].number);
   for (; lanes != 0; lanes &= lanes - 1) {
     const int lane = std::countr_zero(lanes);
-    const glm::vec3 factor = plain ? f_.surfaces.constant(crossed_[0].number) : product(lane);
+    const glm::vec3 factor = plain ? f_.panes.constant(crossed_[0].number) : product(lane);
     if (factor == glm::vec3(1.0f)) continue;
     found.pixels.push_back(static_cast<std::uint32_t>(f_.pixels(tile, lane)));
     found.factors.push_back(factor);
@@ -290,22 +292,22 @@ const shadow::TrianglePlanes& LazyPlanes::of(std::uint32_t number, const Crossin
 }
 
 bool HardTint::trace(const VisiblePoints& points, const points::PointTiles& tiles,
-                     const TriangleView& triangles, const Surfaces& surfaces, const TriangleTree& tree,
+                     const TriangleView& triangles, const Panes& panes, const PaneTree& tree,
                      const ShadowLight& light, const ShadowMask& mask, const TintConfig& config,
                      TintMask& out, TintStats& stats, const StopFlag* stop) {
   shadow::RaySource source = shadow::ray_source(light);
   if (const auto face = shadow::distant_face(light, tiles); face && !light.directional)
     source = shadow::distant_source(source, *face);
-  planes_.reset(surfaces.ids());
+  planes_.reset(panes.ids());
   const Frame frame{points,
                     tiles,
-                    surfaces,
+                    panes,
                     tree,
                     planes_,
                     mask,
                     {triangles, source, config.contact},
                     points::TilePixels(points.width, points.height),
-                    tint_kernels(config.simd)};
+                    rays_crossing(config.simd)};
   std::vector<Worker> workers(tiles.patches.size(), Worker(frame));
   parallel::parallel_in_order(static_cast<int>(workers.size()), [&](int i) {
     Worker& worker = workers[static_cast<std::size_t>(i)];

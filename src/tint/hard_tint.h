@@ -9,8 +9,8 @@
 #include "points/point_tiles.h"
 #include "shadow/decision/triangle_planes.h"
 #include "tint/crossing.h"
-#include "tint/surfaces.h"
-#include "tint/triangle_tree.h"
+#include "tint/pane_tree.h"
+#include "tint/panes.h"
 
 namespace tenebra::tint {
 
@@ -33,9 +33,8 @@ class HardTint {
 public:
   /// TintTracer::trace for a light without an area. `tiles` are of `points`.
   bool trace(const VisiblePoints& points, const points::PointTiles& tiles, const TriangleView& triangles,
-             const Surfaces& surfaces, const TriangleTree& tree, const ShadowLight& light,
-             const ShadowMask& mask, const TintConfig& config, TintMask& out, TintStats& stats,
-             const StopFlag* stop);
+             const Panes& panes, const PaneTree& tree, const ShadowLight& light, const ShadowMask& mask,
+             const TintConfig& config, TintMask& out, TintStats& stats, const StopFlag* stop);
 
 private:
   LazyPlanes planes_;

@@ -37,7 +37,7 @@ struct TintShadow {
 /// Buffers kept from group to group.
 class ShadowsOnLight {
 public:
-  /// Triangles by their numbers in Surfaces, ascending.
+  /// Triangles by their numbers in Panes, ascending.
   void reset(const SoftTintFrame& frame, std::span<const std::uint32_t> numbers) {
     light_ = &frame.soft.light;
     all_ = numbers;
@@ -87,7 +87,7 @@ private:
       for (std::uint32_t lanes = fall(eights_[i], view, shadows); lanes != 0; lanes &= lanes - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
         const std::uint32_t number = numbers_[8 * i + lane];
-        if (frame.surfaces.ids()[number] != own) out.push_back(shadow(shadows, lane, number));
+        if (frame.panes.ids()[number] != own) out.push_back(shadow(shadows, lane, number));
       }
     }
   }
@@ -114,7 +114,7 @@ private:
     const std::size_t count = std::min<std::size_t>(8, numbers_.size() - 8 * i);
     for (std::size_t lane = 0; lane < 8; ++lane) {
       const std::uint32_t number = numbers_[8 * i + std::min(lane, count - 1)];
-      const points::Corners c = points::corners_of(frame.soft.triangles, frame.surfaces.ids()[number]);
+      const points::Corners c = points::corners_of(frame.soft.triangles, frame.panes.ids()[number]);
       t.tau[lane] = points::rounding_tolerance(c.v);
       for (int k = 0; k < 3; ++k)
         for (int axis = 0; axis < 3; ++axis) t.corners[k][axis][lane] = static_cast<double>(c.v[k][axis]);

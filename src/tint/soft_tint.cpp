@@ -22,10 +22,10 @@ double light_tolerance(const AreaLight& light) {
 }
 
 LightReach reach_of(const AreaLight& light, double tolerance, const TriangleView& triangles,
-                    const Surfaces& surfaces) {
+                    const Panes& panes) {
   LightReach reach;
   reach.at_infinity = light.at_infinity;
-  for (const std::uint32_t id : surfaces.ids())
+  for (const std::uint32_t id : panes.ids())
     for (int k = 0; k < 3; ++k)
       reach.farthest =
           std::max(reach.farthest, soft::largest(triangles.positions[triangles.triangles[id][k]]));
@@ -62,25 +62,25 @@ int grid_side_for(double error_255) {
 
 /// A ray of the sun p + t q has |q| >= 1, and no two places are farther apart than sqrt(3) times the sum of
 /// their largest coordinates. With all q times t in the box, the hull of both boxes holds it.
-Box LightReach::box_from(const Box& from) const {
+math::Box<double> LightReach::box_from(const math::Box<double>& from) const {
   if (!at_infinity) return box;
   const double t = 2 * (farthest + std::max(soft::largest(from.low), soft::largest(from.high)));
   return {from.low + t * box.low, from.high + t * box.high};
 }
 
 /// Of all groups those with light of their own, and something see-through on its way.
-void SoftTint::choose_groups(const TriangleTree& tree, const LightReach& light, const SoftMask& mask) {
+void SoftTint::choose_groups(const PaneTree& tree, const LightReach& light, const SoftMask& mask) {
   std::vector<std::uint8_t> wanted(all_.groups.size(), 0);
   parallel::parallel_ranges(all_.groups.size(), 64, [&](std::size_t first, std::size_t last) {
-    std::vector<TriangleTree::Found> near;
+    std::vector<trees::BlockTriangles> near;
     for (std::size_t i = first; i < last; ++i) {
       const soft::PointGroup& group = all_.groups[i];
       const auto pixels = all_.pixels_of(group);
       if (std::none_of(pixels.begin(), pixels.end(), [&](std::uint32_t p) { return mask.irradiance[p] > 0; }))
         continue;
       near.clear();
-      const Box points{group.low, group.high};
-      tree.find(shaft_between(points, light.box_from(points)), near);
+      const math::Box<double> points{group.low, group.high};
+      tree.find(trees::shaft_between(points, light.box_from(points)), near);
       wanted[i] = !near.empty();
     }
   });
@@ -94,13 +94,13 @@ void SoftTint::choose_groups(const TriangleTree& tree, const LightReach& light, 
   soft::build_group_tree(keys, groups_);
 }
 
-void SoftTint::solve_group(const SoftTintFrame& frame, const TriangleTree& tree, const LightReach& light,
+void SoftTint::solve_group(const SoftTintFrame& frame, const PaneTree& tree, const LightReach& light,
                            const soft::GroupDecision& decision, Worker& worker) {
   if (decision.kind == soft::GroupClass::dark) return;
   const soft::PointGroup& group = *decision.group;
   worker.near.clear();
-  const Box points{group.low, group.high};
-  tree.find(shaft_between(points, light.box_from(points)), worker.near);
+  const math::Box<double> points{group.low, group.high};
+  tree.find(trees::shaft_between(points, light.box_from(points)), worker.near);
   tree.numbers_of(worker.near, worker.numbers);
   const soft::GroupTask task{groups_.pixels_of(group), frame_of(group, groups_, worker.receivers),
                              decision.candidates};
@@ -124,11 +124,11 @@ void SoftTint::gather(TintMask& out, TintStats& stats) const {
 }
 
 bool SoftTint::trace(const VisiblePoints& points, std::span<const glm::vec3> normals,
-                     const TriangleView& triangles, const Surfaces& surfaces, const TriangleTree& tree,
+                     const TriangleView& triangles, const Panes& panes, const PaneTree& tree,
                      const AreaLight& light, const SoftMask& mask, const TintConfig& config, TintMask& out,
                      TintStats& stats, const StopFlag* stop) {
   const double tolerance = light_tolerance(light);
-  const LightReach reach = reach_of(light, tolerance, triangles, surfaces);
+  const LightReach reach = reach_of(light, tolerance, triangles, panes);
   SoftShadowConfig soft_config;
   soft_config.simd = config.simd;
   grouper_.group(points, triangles, light, SoftGrouping::neighbourhood, all_, config.simd);
@@ -147,7 +147,7 @@ bool SoftTint::trace(const VisiblePoints& points, std::span<const glm::vec3> nor
   const soft::LightFrame light_frame = soft::light_frame(light);
   const soft::SoftFrame soft_frame{points, normals, triangles, light_frame, soft_config, unused_, {}, stop};
   const SoftTintFrame frame{
-      soft_frame, mask, surfaces, reach, tolerance, config.own_irradiance, grid_side_for(config.error_255)};
+      soft_frame, mask, panes, reach, tolerance, config.own_irradiance, grid_side_for(config.error_255)};
   const bool done = culler_.for_each_family(groups_, triangles, light, soft_config, stop,
                                             [&](std::span<const soft::GroupDecision> family, int thread) {
                                               for (const soft::GroupDecision& decision : family)

@@ -9,26 +9,26 @@
 #include <tenebra/tint.h>
 #include "soft/shafts/shafts.h"
 #include "soft/solve/prepared_group.h"
-#include "tint/surfaces.h"
-#include "tint/triangle_tree.h"
+#include "tint/pane_tree.h"
+#include "tint/panes.h"
 
 namespace tenebra::tint {
 
 /// Where a light is, as far as boxes tell.
 struct LightReach {
-  Box box;  ///< holds the light; of a sun its directions
+  math::Box<double> box;  ///< holds the light; of a sun its directions
   bool at_infinity = false;
   double farthest = 0;  ///< largest |coordinate| of the see-through triangles
 
   /// Holds the light, or as much of a sun's rays from `from` that what is see-through lies before their ends.
-  Box box_from(const Box& from) const;
+  math::Box<double> box_from(const math::Box<double>& from) const;
 };
 
 /// What all groups of a light share.
 struct SoftTintFrame {
   const soft::SoftFrame& soft;  ///< opaque casters; its `out` is not written
   const SoftMask& mask;
-  const Surfaces& surfaces;
+  const Panes& panes;
   LightReach reach;
   double plane_tolerance = 0;  ///< metres off the light's plane that its own rounding amounts to
   bool own_irradiance = false;
@@ -39,7 +39,7 @@ struct SoftTintFrame {
 struct SoftTintTask {
   const soft::PreparedGroup& group;
   std::span<const std::uint32_t> pixels;
-  std::span<const std::uint32_t> numbers;  ///< of the see-through triangles, in Surfaces
+  std::span<const std::uint32_t> numbers;  ///< of the see-through triangles, in Panes
 };
 
 /// Triangles before a point from which on places are counted instead of pieces cut.
@@ -74,20 +74,20 @@ class SoftTint {
 public:
   /// TintTracer::trace for an area light. False if it was stopped.
   bool trace(const VisiblePoints& points, std::span<const glm::vec3> normals, const TriangleView& triangles,
-             const Surfaces& surfaces, const TriangleTree& tree, const AreaLight& light, const SoftMask& mask,
+             const Panes& panes, const PaneTree& tree, const AreaLight& light, const SoftMask& mask,
              const TintConfig& config, TintMask& out, TintStats& stats, const StopFlag* stop);
 
 private:
   struct Worker {
     std::unique_ptr<soft::GroupPreparer> preparer;
     std::unique_ptr<SoftTintSolver> solver;
-    std::vector<TriangleTree::Found> near;
+    std::vector<trees::BlockTriangles> near;
     std::vector<std::uint32_t> numbers, receivers;
     TintMask found;
     TintStats stats;
   };
-  void choose_groups(const TriangleTree& tree, const LightReach& light, const SoftMask& mask);
-  void solve_group(const SoftTintFrame& frame, const TriangleTree& tree, const LightReach& light,
+  void choose_groups(const PaneTree& tree, const LightReach& light, const SoftMask& mask);
+  void solve_group(const SoftTintFrame& frame, const PaneTree& tree, const LightReach& light,
                    const soft::GroupDecision& decision, Worker& worker);
   void gather(TintMask& out, TintStats& stats) const;
 

@@ -75,7 +75,7 @@ private:
     glass_.find(*frame_, point, receiver_.plane.id, receiver_.plane.tau, shadows_);
     return shadows_.size() <= most_cut &&
            std::none_of(shadows_.begin(), shadows_.end(),
-                        [&](const TintShadow& shadow) { return frame_->surfaces.varies(shadow.number); });
+                        [&](const TintShadow& shadow) { return frame_->panes.varies(shadow.number); });
   }
 
   static double value(const dvec3& line, const dvec2& at) { return line.x * at.x + line.y * at.y + line.z; }
@@ -102,7 +102,7 @@ private:
   }
 
   void cut_all(const TintShadow& shadow) {
-    const vec3 factor = frame_->surfaces.constant(shadow.number);
+    const vec3 factor = frame_->panes.constant(shadow.number);
     LightLine<float> lines[4];
     for (int k = 0; k < 4; ++k) lines[k] = line_of<float>(shadow.lines[k]);
     next_.clear();
@@ -196,8 +196,8 @@ private:
 
   void pass(const TintShadow& shadow) {
     const Cells cells = grid_.cells_between(shadow.low, shadow.high);
-    if (!frame_->surfaces.varies(shadow.number))
-      return grid_.pass(shadow.lines, cells, frame_->surfaces.constant(shadow.number));
+    if (!frame_->panes.varies(shadow.number))
+      return grid_.pass(shadow.lines, cells, frame_->panes.constant(shadow.number));
     grid_.pass(shadow.lines, cells, [&](const dvec2& at) { return transmittance(shadow, at); });
   }
 
@@ -208,11 +208,11 @@ private:
   }
 
   vec3 transmittance(const TintShadow& shadow, const dvec2& at) const {
-    const Surfaces& surfaces = frame_->surfaces;
-    if (!surfaces.varies(shadow.number)) return surfaces.constant(shadow.number);
-    const points::Corners c = points::corners_of(frame_->soft.triangles, surfaces.ids()[shadow.number]);
-    return surfaces.transmittance(
-        shadow.number, weights_where(c.v, frame_->soft.points.positions[sight_.pixel], way_to(at)));
+    const Panes& panes = frame_->panes;
+    if (!panes.varies(shadow.number)) return panes.constant(shadow.number);
+    const points::Corners c = points::corners_of(frame_->soft.triangles, panes.ids()[shadow.number]);
+    return panes.transmittance(shadow.number,
+                               weights_where(c.v, frame_->soft.points.positions[sight_.pixel], way_to(at)));
   }
 
   /// Where the visible parts fall between all places: the middle of each stands for it.

@@ -15,26 +15,10 @@ using namespace simd::HWY_NAMESPACE;
 
 namespace {
 
-using Float8 = Pack<float, box_lanes>;
 using Double8 = Pack<double, tile_samples / 2>;
 
-std::uint32_t boxes_met(const EightBoxes& boxes, const FloatShaft& shaft) {
-  Mask<float, box_lanes> apart = lt(broadcast<Float8>(shaft.high[0]), load<Float8>(boxes.rows[0]));
-  for (int axis = 0; axis < 3; ++axis) {
-    apart = apart | lt(broadcast<Float8>(shaft.high[axis]), load<Float8>(boxes.rows[axis])) |
-            lt(load<Float8>(boxes.rows[3 + axis]), broadcast<Float8>(shaft.low[axis]));
-  }
-  for (int p = 0; p < shaft.count; ++p) {
-    const FloatShaft::Plane& plane = shaft.planes[p];
-    const Float8 value = mul_add(broadcast<Float8>(plane.m), load<Float8>(boxes.rows[plane.i]),
-                                 broadcast<Float8>(plane.n) * load<Float8>(boxes.rows[plane.j]));
-    apart = apart | lt(broadcast<Float8>(plane.limit), value);
-  }
-  return ~bits(apart) & 0xffu;
-}
-
 // The bound is that of shadow::decide.
-LanesFound rays_crossing(const shadow::TrianglePlanes& planes, const SampleTile& tile) {
+LanesFound crossing(const shadow::TrianglePlanes& planes, const SampleTile& tile) {
   LanesFound found;
   for (int first = 0; first < tile_samples; first += tile_samples / 2) {
     const Double8 x = load<Double8>(tile.x + first), y = load<Double8>(tile.y + first),
@@ -65,8 +49,8 @@ LanesFound rays_crossing(const shadow::TrianglePlanes& planes, const SampleTile&
 
 }  // namespace
 
-TintKernels kernels() {
-  return {boxes_met, rays_crossing};
+RaysCrossing rays_crossing() {
+  return crossing;
 }
 
 }  // namespace tenebra::tint::HWY_NAMESPACE
@@ -76,8 +60,8 @@ HWY_AFTER_NAMESPACE();
 
 namespace tenebra::tint {
 
-TintKernels tint_kernels(SimdLevel level) {
-  return TENEBRA_DISPATCH(level, kernels)();
+RaysCrossing rays_crossing(SimdLevel level) {
+  return TENEBRA_DISPATCH(level, rays_crossing)();
 }
 
 }  // namespace tenebra::tint

@@ -49,8 +49,8 @@ SeeThroughSurfaces see_through_surfaces(const Scene& scene, const FrameGeometry&
 }
 
 struct TintTracer::State {
-  tint::Surfaces surfaces;
-  tint::TriangleTree tree;
+  tint::Panes panes;
+  tint::PaneTree tree;
   tint::HardTint hard;
   tint::SoftTint soft;
   points::PointTiles own_tiles;  ///< of points that came without
@@ -68,13 +68,13 @@ bool TintTracer::State::begin(const SeeThroughSurfaces& from, const TriangleView
   out.pixels.clear();
   out.factors.clear();
   if (!config.same_surfaces) {
-    surfaces.reset(from, triangles);
-    tree.update(surfaces.ids(), triangles);
+    panes.reset(from, triangles);
+    tree.update(panes.ids(), triangles);
   }
-  tree.use(tint::tint_kernels(config.simd));
+  tree.use(config.simd);
   stats = {};
-  stats.triangles = surfaces.ids().size();
-  return !surfaces.ids().empty();
+  stats.triangles = panes.ids().size();
+  return !panes.ids().empty();
 }
 
 TintTracer::TintTracer() : state_(std::make_unique<State>()) {}
@@ -96,7 +96,7 @@ bool TintTracer::trace(const VisiblePoints& seen, const TriangleView& triangles,
   const VisiblePoints& points = points::with_positions(seen, triangles, s.positions);
   const bool ready = !points.tiles.empty();
   if (!ready) points::make_point_tiles(points, triangles, s.own_tiles);
-  const bool done = s.hard.trace(points, ready ? *points.tiles : s.own_tiles, triangles, s.surfaces, s.tree,
+  const bool done = s.hard.trace(points, ready ? *points.tiles : s.own_tiles, triangles, s.panes, s.tree,
                                  light, mask, config, out, s.stats, stop);
   s.stats.ms = watch.lap_ms();
   return done;
@@ -112,7 +112,7 @@ bool TintTracer::trace(const VisiblePoints& seen, std::span<const glm::vec3> nor
   if (!s.begin(surfaces, triangles, config, out)) return true;
   const VisiblePoints& points = points::with_positions(seen, triangles, s.positions);
   const bool done =
-      s.soft.trace(points, normals, triangles, s.surfaces, s.tree, light, mask, config, out, s.stats, stop);
+      s.soft.trace(points, normals, triangles, s.panes, s.tree, light, mask, config, out, s.stats, stop);
   s.stats.ms = watch.lap_ms();
   return done;
 }

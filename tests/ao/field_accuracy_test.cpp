@@ -83,11 +83,11 @@ double field_occlusion(const ao::FieldInstance& instance, const Receiver& r, dou
   const ao::FieldKernels kernels = ao::field_kernels(SimdLevel::automatic);
   const std::vector<vec3> directions = directions_at(r, rays, angle);
   double sum = 0;
-  for (int i = 0; i < rays; i += ao::batch_size) {
-    ao::RayBatch batch;
-    float t[ao::batch_size];
-    std::fill(t, t + ao::batch_size, static_cast<float>(distance));
-    for (int k = 0; k < ao::batch_size; ++k)
+  for (int i = 0; i < rays; i += trees::batch_size) {
+    trees::RayBatch batch;
+    float t[trees::batch_size];
+    std::fill(t, t + trees::batch_size, static_cast<float>(distance));
+    for (int k = 0; k < trees::batch_size; ++k)
       batch.set(k, r.position, directions[static_cast<std::size_t>(i + k)]);
     kernels.nearest_hits(instance, {&batch, 1}, t);
     for (const float d : t) sum += occlusion(d, distance);
@@ -153,7 +153,7 @@ double rms_255(const ao::FieldInstance& instance, const Reference& reference,
 void measure(const char* name, const Object& object) {
   Random random(7);
   const Reference reference(object);
-  const ao::TriangleBvh bvh = object.bvh();
+  const trees::TriangleBvh bvh = object.bvh();
   const ao::DisplacementField chords = object.field(), sparse = object.field(ao::sparse_field);
   const ao::DisplacementField paper = object.field({FieldLayout::positions_directions, 4225, 1024, 8});
   const double distance = 2 * paper.bound.axes.x;

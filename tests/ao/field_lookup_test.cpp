@@ -27,26 +27,27 @@ constexpr SimdLevel levels[] = {SimdLevel::scalar, SimdLevel::sse4, SimdLevel::a
 
 /// Distances of sixteen rays; infinity: nothing met.
 struct Distances {
-  float t[ao::batch_size];
+  float t[trees::batch_size];
 };
-Distances look(const ao::FieldInstance& instance, const ao::RayBatch& rays,
+Distances look(const ao::FieldInstance& instance, const trees::RayBatch& rays,
                SimdLevel level = SimdLevel::automatic, float limit = nothing_met) {
   Distances d;
-  std::fill(d.t, d.t + ao::batch_size, limit);
+  std::fill(d.t, d.t + trees::batch_size, limit);
   ao::field_kernels(level).nearest_hits(instance, {&rays, 1}, d.t);
   return d;
 }
 float look_one(const ao::FieldInstance& instance, vec3 origin, vec3 direction, float limit = nothing_met) {
-  ao::RayBatch rays{};
+  trees::RayBatch rays{};
   rays.set(5, origin, direction);
   const Distances d = look(instance, rays, SimdLevel::automatic, limit);
-  for (int i = 0; i < ao::batch_size; ++i) EXPECT_TRUE(i == 5 || d.t[i] == limit) << "a lane without a ray";
+  for (int i = 0; i < trees::batch_size; ++i)
+    EXPECT_TRUE(i == 5 || d.t[i] == limit) << "a lane without a ray";
   return d.t[5];
 }
 
-ao::RayBatch random_rays(Random& random, double spread) {
-  ao::RayBatch rays;
-  for (int i = 0; i < ao::batch_size; ++i)
+trees::RayBatch random_rays(Random& random, double spread) {
+  trees::RayBatch rays;
+  for (int i = 0; i < trees::batch_size; ++i)
     rays.set(i, vec3(random.in_cube(spread)), vec3(random.direction()));
   return rays;
 }
@@ -76,21 +77,21 @@ TEST(FieldLookup, FindsABallWhereItIs) {
 TEST(FieldLookup, GivesTheSameBitsOnEveryInstructionSet) {
   Random random(2);
   const Object object = testing::table();
-  const ao::TriangleBvh bvh = object.bvh();
+  const trees::TriangleBvh bvh = object.bvh();
   const dmat4 world = glm::rotate(glm::translate(dmat4(1), dvec3(0.3, 0.1, -0.2)), 0.7, dvec3(1, 2, 3));
   for (const FieldLayout layout : {paper, chords}) {
     for (const int bits : {1, 8, 32}) {
       const ao::DisplacementField field = object.field({layout, 625, 625, bits});
-      for (const ao::TriangleBvh* near : {static_cast<const ao::TriangleBvh*>(nullptr), &bvh}) {
+      for (const trees::TriangleBvh* near : {static_cast<const trees::TriangleBvh*>(nullptr), &bvh}) {
         for (const ao::FieldEnds ends : {ao::FieldEnds::first, ao::FieldEnds::both}) {
           const ao::FieldInstance instance = *ao::place_field(field, near, world, ends);
           for (int i = 0; i < 300; ++i) {
-            const ao::RayBatch rays = random_rays(random, i % 2 ? 3 : 1);
+            const trees::RayBatch rays = random_rays(random, i % 2 ? 3 : 1);
             const Distances expected = look(instance, rays, SimdLevel::scalar, i % 3 ? nothing_met : 1.0f);
             for (const SimdLevel level : levels) {
               if (!simd_level_supported(level)) continue;
               const Distances found = look(instance, rays, level, i % 3 ? nothing_met : 1.0f);
-              ASSERT_TRUE(std::equal(found.t, found.t + ao::batch_size, expected.t))
+              ASSERT_TRUE(std::equal(found.t, found.t + trees::batch_size, expected.t))
                   << simd_level_name(level);
             }
           }
@@ -105,13 +106,13 @@ TEST(FieldLookup, OneFieldServesAllInstances) {
   // changes nothing but the scale.
   Random random(3);
   const Object object = testing::table();
-  const ao::TriangleBvh bvh = object.bvh();
+  const trees::TriangleBvh bvh = object.bvh();
   const ao::DisplacementField field = object.field();
   const dmat4 moved = glm::translate(dmat4(1), dvec3(5, -7, 11));
   const dmat4 turned = glm::rotate(moved, 2.1, glm::normalize(dvec3(1, 2, -3)));
   dmat4 sheared = turned;
   sheared[1] += 0.5 * sheared[0];
-  for (const ao::TriangleBvh* near : {static_cast<const ao::TriangleBvh*>(nullptr), &bvh}) {
+  for (const trees::TriangleBvh* near : {static_cast<const trees::TriangleBvh*>(nullptr), &bvh}) {
     const ao::FieldInstance here = *ao::place_field(field, near, dmat4(1));
     for (const dmat4& world :
          {moved, turned, glm::scale(turned, dvec3(1000)), glm::scale(dmat4(1), dvec3(1e-4)) * turned,
@@ -151,11 +152,11 @@ TEST(FieldLookup, NeverCrossesWhatWasFoundBefore) {
   const ao::FieldInstance instance = *ao::place_field(field, nullptr, dmat4(1));
   Random random(5);
   for (int i = 0; i < 500; ++i) {
-    const ao::RayBatch rays = random_rays(random, 2);
+    const trees::RayBatch rays = random_rays(random, 2);
     const Distances all = look(instance, rays);
     for (const float limit : {0.0f, 0.3f, 1.0f, 5.0f}) {
       const Distances some = look(instance, rays, SimdLevel::automatic, limit);
-      for (int k = 0; k < ao::batch_size; ++k) EXPECT_EQ(some.t[k], std::min(limit, all.t[k]));
+      for (int k = 0; k < trees::batch_size; ++k) EXPECT_EQ(some.t[k], std::min(limit, all.t[k]));
     }
   }
 }
@@ -163,7 +164,7 @@ TEST(FieldLookup, NeverCrossesWhatWasFoundBefore) {
 TEST(FieldLookup, IsNeverNanOrNegative) {
   Random random(6);
   const Object object = testing::table();
-  const ao::TriangleBvh bvh = object.bvh();
+  const trees::TriangleBvh bvh = object.bvh();
   const float odd[] = {0.0f,  -0.0f, 1e-42f,      1e-20f,       1.0f, -1.0f,
                        1e20f, 3e38f, nothing_met, -nothing_met, NAN};
   for (const FieldLayout layout : {paper, chords}) {
@@ -173,14 +174,14 @@ TEST(FieldLookup, IsNeverNanOrNegative) {
            {dmat4(1), glm::scale(dmat4(1), dvec3(1e-15)), glm::scale(dmat4(1), dvec3(1e15))}) {
         const ao::FieldInstance instance = *ao::place_field(field, &bvh, world);
         for (int i = 0; i < 2000; ++i) {
-          ao::RayBatch rays = random_rays(random, 1);
-          for (int k = 0; k < ao::batch_size; ++k) {
+          trees::RayBatch rays = random_rays(random, 1);
+          for (int k = 0; k < trees::batch_size; ++k) {
             float* lanes[] = {rays.ox, rays.oy, rays.oz, rays.dx, rays.dy, rays.dz};
             lanes[random.index(6)][k] = odd[random.index(11)];
             if (random.chance(0.3)) lanes[random.index(6)][k] = odd[random.index(11)];
           }
           const Distances found = look(instance, rays);
-          for (int k = 0; k < ao::batch_size; ++k) {
+          for (int k = 0; k < trees::batch_size; ++k) {
             ASSERT_GE(found.t[k], 0.0f);
             const vec3 o = rays.origin(k), d = rays.direction(k);
             if (!std::isfinite(o.x + o.y + o.z + d.x + d.y + d.z) || d == vec3(0)) {
@@ -226,7 +227,7 @@ TEST(FieldLookup, SeesFromInsideTheSphere) {
   // Between the table's legs, below its plate. The paper's first hit along the chord is behind, under the
   // floor, beside: nothing.
   const Object object = testing::table();
-  const ao::TriangleBvh bvh = object.bvh();
+  const trees::TriangleBvh bvh = object.bvh();
   const ao::DisplacementField field = object.field();
   const ao::FieldInstance both = *ao::place_field(field, nullptr, dmat4(1));
   const ao::FieldInstance cast = *ao::place_field(field, &bvh, dmat4(1));
@@ -243,20 +244,21 @@ TEST(FieldLookup, SeesFromInsideTheSphere) {
 
 TEST(FieldLookup, AnswersManyBatchesAsItDoesOne) {
   const Object object = testing::table();
-  const ao::TriangleBvh bvh = object.bvh();
+  const trees::TriangleBvh bvh = object.bvh();
   Random random(9);
-  std::vector<ao::RayBatch> rays;  // inside and outside, and some that meet nothing
-  for (int i = 0; i < 23; ++i) rays.push_back(i % 5 == 2 ? ao::RayBatch{} : random_rays(random, i % 3 + 0.7));
+  std::vector<trees::RayBatch> rays;  // inside and outside, and some that meet nothing
+  for (int i = 0; i < 23; ++i)
+    rays.push_back(i % 5 == 2 ? trees::RayBatch{} : random_rays(random, i % 3 + 0.7));
   const auto nearest_hits = ao::field_kernels(SimdLevel::automatic).nearest_hits;
   for (const FieldLayout layout : {paper, chords}) {
     const ao::DisplacementField field = object.field({layout, 400, 256, 8});
     const ao::FieldInstance instance = *ao::place_field(field, &bvh, dmat4(1));
     for (std::size_t count = 0; count <= rays.size(); ++count) {
-      std::vector<float> all(rays.size() * ao::batch_size, 2.0f), single = all;
+      std::vector<float> all(rays.size() * trees::batch_size, 2.0f), single = all;
       const int casts = nearest_hits(instance, {rays.data(), count}, all.data());
       int casts_of_single = 0;
       for (std::size_t b = 0; b < count; ++b)
-        casts_of_single += nearest_hits(instance, {&rays[b], 1}, single.data() + b * ao::batch_size);
+        casts_of_single += nearest_hits(instance, {&rays[b], 1}, single.data() + b * trees::batch_size);
       EXPECT_EQ(all, single) << count;
       EXPECT_EQ(casts, casts_of_single) << count;
       if (count == rays.size()) {
@@ -268,13 +270,13 @@ TEST(FieldLookup, AnswersManyBatchesAsItDoesOne) {
 
 TEST(FieldLookup, CastsOnlyRaysThatStartCloseToTheObject) {
   const Object object = testing::table();
-  const ao::TriangleBvh bvh = object.bvh();
+  const trees::TriangleBvh bvh = object.bvh();
   const ao::DisplacementField field = object.field();
   const ao::FieldInstance instance = *ao::place_field(field, &bvh, dmat4(1));
   const auto casts = [&](vec3 origin) {
-    ao::RayBatch rays{};
-    float distance[ao::batch_size];
-    std::fill(distance, distance + ao::batch_size, nothing_met);
+    trees::RayBatch rays{};
+    float distance[trees::batch_size];
+    std::fill(distance, distance + trees::batch_size, nothing_met);
     rays.set(0, origin, {0, 1, 0});
     return ao::field_kernels(SimdLevel::automatic).nearest_hits(instance, {&rays, 1}, distance);
   };

@@ -89,7 +89,7 @@ double stored_s(const ao::DisplacementField& field, std::size_t entry) {
 
 TEST(Field, SaysWhatARayAlongEachChordMeets) {
   const Object object = testing::table();
-  const ao::TriangleBvh bvh = object.bvh();
+  const trees::TriangleBvh bvh = object.bvh();
   for (const FieldLayout layout : {paper, chords}) {
     for (const int bits : {8, 32}) {
       const ao::DisplacementField field = object.field({layout, 81, 81, bits});
@@ -212,13 +212,13 @@ TEST(NearCells, HoldAllThatIsNearAndLittleElse) {
       EXPECT_TRUE(close(near));
     }
     // Nothing within a tenth in any direction: not close.
-    const ao::TriangleBvh bvh = object.bvh();
+    const trees::TriangleBvh bvh = object.bvh();
     int far = 0;
     for (int i = 0; i < 2000; ++i) {
       const dvec3 p = random.in_cube(0.57);
       bool free = true;
       for (int k = 0; k < 200 && free; ++k)
-        free = !ao::bvh_kernels(SimdLevel::automatic)
+        free = !trees::bvh_kernels(SimdLevel::automatic)
                     .any(bvh, {vec3(bound.centre + bound.axes * p), vec3(bound.axes * random.direction()), 0,
                                0.15f});
       if (!free) continue;
@@ -232,8 +232,8 @@ TEST(NearCells, HoldAllThatIsNearAndLittleElse) {
 TEST(Field, RefusesAMeshWithoutArea) {
   const std::vector<vec3> positions{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}};
   const std::vector<glm::uvec3> triangles{{0, 1, 2}};
-  EXPECT_FALSE(ao::build_field(positions, triangles, ao::build_triangle_bvh(positions, triangles), {}));
-  EXPECT_FALSE(ao::build_field({}, {}, ao::build_triangle_bvh({}, {}), {}));
+  EXPECT_FALSE(ao::build_field(positions, triangles, trees::build_triangle_bvh(positions, triangles), {}));
+  EXPECT_FALSE(ao::build_field({}, {}, trees::build_triangle_bvh({}, {}), {}));
 }
 
 TEST(Field, HoldsASingleFlatTriangle) {

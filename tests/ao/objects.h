@@ -19,7 +19,7 @@ struct Object {
   std::vector<glm::vec3> positions;
   std::vector<glm::uvec3> triangles;
 
-  ao::TriangleBvh bvh() const { return ao::build_triangle_bvh(positions, triangles); }
+  trees::TriangleBvh bvh() const { return trees::build_triangle_bvh(positions, triangles); }
   ao::DisplacementField field(const ao::FieldSettings& settings = {}) const {
     return *ao::build_field(positions, triangles, bvh(), settings);
   }

@@ -10,7 +10,7 @@ namespace {
 std::vector<glm::dvec3> directions(const ao::RayPattern& pattern) {
   std::vector<glm::dvec3> all;
   for (const ao::RayPattern::Batch& batch : pattern.batches)
-    for (int i = 0; i < ao::batch_size; ++i) all.push_back({batch.x[i], batch.y[i], batch.z[i]});
+    for (int i = 0; i < trees::batch_size; ++i) all.push_back({batch.x[i], batch.y[i], batch.z[i]});
   return all;
 }
 
@@ -71,21 +71,21 @@ TEST(RayPattern, NoRayGoesBelowTheFace) {
   const glm::vec3 face(0, 1, 0), normal = glm::normalize(glm::vec3(1, 0.4f, 0.2f)), origin(3, 4, 5);
   for (const SimdLevel level : {SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512}) {
     if (!simd_level_supported(level)) continue;
-    std::vector<ao::RayBatch> rays(pattern.batches.size());
+    std::vector<trees::RayBatch> rays(pattern.batches.size());
     ao::fan_kernels(level).spread(pattern, ao::turned_axes(normal, {}, 1), face, origin, rays.data());
-    for (const ao::RayBatch& batch : rays) {
-      for (int i = 0; i < ao::batch_size; ++i) {
+    for (const trees::RayBatch& batch : rays) {
+      for (int i = 0; i < trees::batch_size; ++i) {
         EXPECT_GE(batch.dy[i], 0);
         EXPECT_NEAR(glm::length(batch.direction(i)), 1, 1e-5);
         EXPECT_GE(glm::dot(batch.direction(i), normal), -1e-5);
         EXPECT_EQ(batch.origin(i), origin);
       }
     }
-    std::vector<ao::RayBatch> scalar(pattern.batches.size());
+    std::vector<trees::RayBatch> scalar(pattern.batches.size());
     ao::fan_kernels(SimdLevel::scalar)
         .spread(pattern, ao::turned_axes(normal, {}, 1), face, origin, scalar.data());
     for (std::size_t b = 0; b < rays.size(); ++b)
-      for (int i = 0; i < ao::batch_size; ++i) EXPECT_EQ(rays[b].direction(i), scalar[b].direction(i));
+      for (int i = 0; i < trees::batch_size; ++i) EXPECT_EQ(rays[b].direction(i), scalar[b].direction(i));
   }
 }
 

@@ -8,7 +8,7 @@ namespace tenebra::testing {
 
 struct StandingBody {
   ao::ObjectShape shape;
-  ao::TriangleBvh casters;
+  trees::TriangleBvh casters;
 
   explicit StandingBody(const Mesh& mesh) {
     SceneMaker make;
@@ -16,7 +16,7 @@ struct StandingBody {
     FrameGeometry geometry;
     evaluate_frame(make.scene, -1, 0, geometry);
     shape = ao::find_objects(make.scene, geometry).standing;
-    casters = ao::build_triangle_bvh(shape.positions, shape.triangles);
+    casters = trees::build_triangle_bvh(shape.positions, shape.triangles);
   }
 };
 

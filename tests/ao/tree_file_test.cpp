@@ -7,10 +7,10 @@
 #include <cstring>
 #include <set>
 
-#include "ao/cast/bvh_order.h"
 #include "support/samples.h"
 #include "support/seeded_random.h"
 #include "support/temporary_folder.h"
+#include "trees/bvh_order.h"
 
 namespace tenebra {
 namespace {
@@ -23,9 +23,9 @@ namespace fs = std::filesystem;
 struct TreeTriangles {
   std::vector<vec3> positions;
   std::vector<glm::uvec3> triangles;
-  ao::TriangleBvh bvh() const { return ao::build_triangle_bvh(positions, triangles); }
-  std::optional<ao::TriangleBvh> ordered(const ao::BvhOrder& order) const {
-    return ao::order_triangles(positions, triangles, order);
+  trees::TriangleBvh bvh() const { return trees::build_triangle_bvh(positions, triangles); }
+  std::optional<trees::TriangleBvh> ordered(const trees::BvhOrder& order) const {
+    return trees::order_triangles(positions, triangles, order);
   }
 };
 
@@ -45,11 +45,11 @@ TreeTriangles make_triangles(int count, std::uint64_t seed = 1) {
   return set;
 }
 
-bool same(const ao::BvhNode& a, const ao::BvhNode& b) {
+bool same(const trees::BvhNode& a, const trees::BvhNode& b) {
   return std::memcmp(a.plane, b.plane, sizeof(a.plane)) == 0 &&
          std::memcmp(a.child, b.child, sizeof(a.child)) == 0;
 }
-bool same(const ao::TriangleBlock& a, const ao::TriangleBlock& b) {
+bool same(const trees::BvhTriangles& a, const trees::BvhTriangles& b) {
   return std::memcmp(a.corner, b.corner, sizeof(a.corner)) == 0 &&
          std::memcmp(a.triangle, b.triangle, sizeof(a.triangle)) == 0;
 }
@@ -58,7 +58,7 @@ bool same(const std::vector<T>& a, const std::vector<T>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](const T& x, const T& y) { return same(x, y); });
 }
-bool same(const ao::TriangleBvh& a, const ao::TriangleBvh& b) {
+bool same(const trees::TriangleBvh& a, const trees::TriangleBvh& b) {
   return a.triangles == b.triangles && same(a.nodes, b.nodes) && same(a.blocks, b.blocks);
 }
 
@@ -66,7 +66,7 @@ TEST(TreeFile, GivesBackWhatWasSavedBitForBit) {
   const TemporaryFolder folder;
   for (const int count : {0, 1, 8, 9, 500, 20'000}) {
     const TreeTriangles set = make_triangles(count);
-    const ao::TriangleBvh built = set.bvh();
+    const trees::TriangleBvh built = set.bvh();
     const ao::CacheKey key = ao::tree_key(set.positions, set.triangles);
     ASSERT_TRUE(ao::save_tree(folder.path() / "new" / "folder", key, built));
     const auto loaded = ao::load_tree(folder.path() / "new" / "folder", key, set.positions, set.triangles);
@@ -78,8 +78,8 @@ TEST(TreeFile, GivesBackWhatWasSavedBitForBit) {
 TEST(TreeFile, TrianglesInOnePlaceComeBackToo) {
   TreeTriangles set = make_triangles(1);
   set.triangles.assign(3000, set.triangles.front());
-  const ao::TriangleBvh built = set.bvh();
-  const auto again = set.ordered(ao::order_of(built));
+  const trees::TriangleBvh built = set.bvh();
+  const auto again = set.ordered(trees::order_of(built));
   ASSERT_TRUE(again);
   EXPECT_TRUE(same(*again, built));
 }
@@ -106,9 +106,9 @@ TEST(TreeFile, TheKeyChangesWithEveryTriangle) {
 /// Whatever the bytes of an order say, it is refused or the tree holds every triangle once.
 TEST(TreeFile, AnOrderThatIsNoTreeIsRefused) {
   const TreeTriangles set = make_triangles(300);
-  const ao::BvhOrder good = ao::order_of(set.bvh());
+  const trees::BvhOrder good = trees::order_of(set.bvh());
   const auto refused = [&](const auto& change) {
-    ao::BvhOrder order = good;
+    trees::BvhOrder order = good;
     change(order);
     return !set.ordered(order);
   };
@@ -124,12 +124,12 @@ TEST(TreeFile, AnOrderThatIsNoTreeIsRefused) {
   EXPECT_TRUE(refused([](auto& order) { std::fill(order.children.begin(), order.children.end(), 9); }));
   const auto chain = [](auto& order) {
     order.children.assign(8 * 1000, 0);
-    for (std::size_t n = 0; n < 1000; ++n) order.children[8 * n] = ao::BvhOrder::node;
+    for (std::size_t n = 0; n < 1000; ++n) order.children[8 * n] = trees::BvhOrder::node;
   };
   EXPECT_TRUE(refused(chain)) << "too many levels";
   Random random(5);
   for (int i = 0; i < 2000; ++i) {
-    ao::BvhOrder order = good;
+    trees::BvhOrder order = good;
     order.children[random.index(static_cast<std::uint32_t>(order.children.size()))] =
         static_cast<std::uint8_t>(random.index(256));
     const auto tree = set.ordered(order);
@@ -142,7 +142,7 @@ TEST(TreeFile, AnOrderThatIsNoTreeIsRefused) {
 TEST(KeptTrees, AreReadInTheNextProcessAndMadeAnewWhereDamaged) {
   const TemporaryFolder folder;
   const TreeTriangles set = make_triangles(5000);
-  const ao::TriangleBvh expected = set.bvh();
+  const trees::TriangleBvh expected = set.bvh();
   const auto path = ao::tree_path(folder.path(), ao::tree_key(set.positions, set.triangles));
   const auto make = [&] {
     ao::KeptTrees trees{folder.path(), {}, false};

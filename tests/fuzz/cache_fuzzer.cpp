@@ -19,7 +19,7 @@ struct Kept {
   std::vector<glm::vec3> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   std::vector<glm::uvec3> triangles{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
   ao::FieldSettings settings{FieldLayout::chords, 16, 16, 8};
-  ao::TriangleBvh tree = ao::build_triangle_bvh(positions, triangles);
+  trees::TriangleBvh tree = trees::build_triangle_bvh(positions, triangles);
   ao::CacheKey tree_key = ao::tree_key(positions, triangles);
   ao::CacheKey field_key = ao::field_key(positions, triangles, settings);
   ao::CacheKey sample_key{1, 2};

@@ -91,8 +91,8 @@ Point point_of(const TruthQuestion& q, float largest, std::size_t pixel) {
   return {{vec3(from + double{start_lift(from, largest)} * dvec3(face)), normal}, face};
 }
 
-void mirror(ao::RayBatch& rays, const vec3& face) {
-  for (int i = 0; i < ao::batch_size; ++i) {
+void mirror(trees::RayBatch& rays, const vec3& face) {
+  for (int i = 0; i < trees::batch_size; ++i) {
     const float below = 2 * std::min(0.0f, glm::dot(rays.direction(i), face));
     rays.set(i, rays.origin(i), rays.direction(i) - below * face);
   }
@@ -105,12 +105,12 @@ std::vector<float> cast(const TruthQuestion& q, const std::vector<std::size_t>& 
   const float largest = largest_coordinate(q.triangles);
   std::vector<float> open(pixels.size());
   parallel::parallel_ranges(pixels.size(), 16, [&](std::size_t first, std::size_t last) {
-    std::vector<ao::RayBatch> batches(static_cast<std::size_t>(q.rays / ao::batch_size));
+    std::vector<trees::RayBatch> batches(static_cast<std::size_t>(q.rays / trees::batch_size));
     std::vector<float> distances(static_cast<std::size_t>(q.rays));
     for (std::size_t k = first; k < last; ++k) {
       const Point point = point_of(q, largest, pixels[k]);
       rays.batches(point.at, pixels[k], batches);
-      for (ao::RayBatch& batch : batches) mirror(batch, point.face);
+      for (trees::RayBatch& batch : batches) mirror(batch, point.face);
       std::fill(distances.begin(), distances.end(), q.reach_m);
       trace(batches, distances.data());
       double sum = 0;

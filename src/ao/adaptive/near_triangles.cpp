@@ -50,7 +50,7 @@ void NearTriangles::look(std::span<const Receiver> receivers, std::span<const Ra
     const Receiver& receiver = receivers[i];
     const RayPattern& pattern = *patterns[i];
     batches_.resize(pattern.batches.size());
-    distances_.assign(pattern.batches.size() * batch_size, reach_);
+    distances_.assign(pattern.batches.size() * trees::batch_size, reach_);
     const glm::dvec3 size = glm::abs(receiver.position);
     const double lift = std::max(lift_, surface_lift(std::max({size.x, size.y, size.z})));
     const glm::dvec3 origin = receiver.position + lift * glm::dvec3(receiver.face);

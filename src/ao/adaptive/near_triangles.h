@@ -63,7 +63,7 @@ private:
   float reach_ = 0;
   float lift_ = 0;
   std::vector<std::uint8_t> reached_;  ///< one per occluder and receiver
-  std::vector<RayBatch> batches_;
+  std::vector<trees::RayBatch> batches_;
   std::vector<float> distances_;
 };
 

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "ao/cast/bvh_order.h"
 #include "base/fail.h"
+#include "trees/bvh_order.h"
 
 namespace tenebra::ao {
 namespace {
@@ -18,7 +18,7 @@ struct Sizes {
   std::size_t bytes() const { return sizeof(Sizes) + children + triangles * sizeof(std::uint32_t); }
 };
 
-auto lists(Sizes& sizes, BvhOrder& order) {
+auto lists(Sizes& sizes, trees::BvhOrder& order) {
   return std::array{std::as_writable_bytes(std::span(&sizes, 1)),
                     std::as_writable_bytes(std::span(order.children)),
                     std::as_writable_bytes(std::span(order.triangles))};
@@ -35,8 +35,8 @@ fs::path tree_path(const fs::path& folder, const CacheKey& key) {
   return cache_path(folder, kind, key);
 }
 
-Expected<void> save_tree(const fs::path& folder, const CacheKey& key, const TriangleBvh& tree) {
-  BvhOrder order = order_of(tree);
+Expected<void> save_tree(const fs::path& folder, const CacheKey& key, const trees::TriangleBvh& tree) {
+  trees::BvhOrder order = order_of(tree);
   Sizes sizes{order.children.size(), order.triangles.size()};
   std::string bytes;
   bytes.reserve(sizes.bytes());
@@ -45,9 +45,11 @@ Expected<void> save_tree(const fs::path& folder, const CacheKey& key, const Tria
   return save_cache_file(folder, kind, key, bytes);
 }
 
-Expected<TriangleBvh> load_tree(const fs::path& folder, const CacheKey& key,
-                                std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles) {
-  const Sizes most{triangles.size() * bvh_width, triangles.size()};  // there are no more nodes than triangles
+Expected<trees::TriangleBvh> load_tree(const fs::path& folder, const CacheKey& key,
+                                       std::span<const glm::vec3> positions,
+                                       std::span<const glm::uvec3> triangles) {
+  const Sizes most{triangles.size() * trees::bvh_width,
+                   triangles.size()};  // there are no more nodes than triangles
   const auto file = CacheReader::open(folder, kind, key, sizeof(Sizes), most.bytes());
   if (!file) return tl::unexpected(file.error());
   const auto foreign = [&] {
@@ -59,25 +61,26 @@ Expected<TriangleBvh> load_tree(const fs::path& folder, const CacheKey& key,
     return tl::unexpected(done.error());
   if (sizes.children > most.children || sizes.triangles > most.triangles || sizes.bytes() != file->bytes())
     return foreign();
-  BvhOrder order;
+  trees::BvhOrder order;
   order.children.resize(sizes.children);
   order.triangles.resize(sizes.triangles);
   if (auto done = file->read(lists(sizes, order)); !done) return tl::unexpected(done.error());
-  auto tree = order_triangles(positions, triangles, order);
+  auto tree = trees::order_triangles(positions, triangles, order);
   if (!tree) return foreign();
   return std::move(*tree);
 }
 
-std::optional<TriangleBvh> KeptTrees::make(std::span<const glm::vec3> positions,
-                                           std::span<const glm::uvec3> triangles, const StopFlag* stop) {
+std::optional<trees::TriangleBvh> KeptTrees::make(std::span<const glm::vec3> positions,
+                                                  std::span<const glm::uvec3> triangles,
+                                                  const StopFlag* stop) {
   if (folder.empty() || triangles.size() < least_triangles)
-    return build_triangle_bvh(positions, triangles, stop);
+    return trees::build_triangle_bvh(positions, triangles, stop);
   const CacheKey key = tree_key(positions, triangles);
   const bool there = cache_file_exists(tree_path(folder, key));  // others may write it just then
   auto loaded = load_tree(folder, key, positions, triangles);
   if (loaded) return std::move(*loaded);
   if (there) notes.push_back(loaded.error().message + "; it is made anew");
-  auto built = build_triangle_bvh(positions, triangles, stop);
+  auto built = trees::build_triangle_bvh(positions, triangles, stop);
   if (!built) return built;
   const auto saved = save_tree(folder, key, *built);
   if (!saved && !unwritten) notes.push_back(saved.error().message);

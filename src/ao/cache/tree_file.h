@@ -11,7 +11,7 @@
 #include <tenebra/expected.h>
 #include <tenebra/stop_flag.h>
 #include "ao/cache/cache_file.h"
-#include "ao/cast/triangle_bvh.h"
+#include "trees/triangle_bvh.h"
 
 namespace tenebra::ao {
 
@@ -22,12 +22,14 @@ CacheKey tree_key(std::span<const glm::vec3> positions, std::span<const glm::uve
 std::filesystem::path tree_path(const std::filesystem::path& folder, const CacheKey& key);
 
 /// Whole or absent. Creates the folder if it is missing.
-Expected<void> save_tree(const std::filesystem::path& folder, const CacheKey& key, const TriangleBvh& tree);
+Expected<void> save_tree(const std::filesystem::path& folder, const CacheKey& key,
+                         const trees::TriangleBvh& tree);
 
 /// The tree of these triangles, as it was saved; a sentence if there is no such file or it is not as it was
 /// written. Memory is bounded by the number of triangles.
-Expected<TriangleBvh> load_tree(const std::filesystem::path& folder, const CacheKey& key,
-                                std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles);
+Expected<trees::TriangleBvh> load_tree(const std::filesystem::path& folder, const CacheKey& key,
+                                       std::span<const glm::vec3> positions,
+                                       std::span<const glm::uvec3> triangles);
 
 /// Trees that are kept on disk, so that the next process has them at once.
 struct KeptTrees {
@@ -39,8 +41,8 @@ struct KeptTrees {
   bool unwritten = false;          ///< which was noted
 
   /// Read or built: the same tree. None if `stop` was requested while it was built.
-  std::optional<TriangleBvh> make(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
-                                  const StopFlag* stop);
+  std::optional<trees::TriangleBvh> make(std::span<const glm::vec3> positions,
+                                         std::span<const glm::uvec3> triangles, const StopFlag* stop);
 };
 
 }  // namespace tenebra::ao

@@ -18,7 +18,7 @@ SIMD_INLINE Float16 component(const Pack3<Float16>& d, float x, float y, float z
 }
 
 void spread(const RayPattern& pattern, const RayAxes& axes, const glm::vec3& face, const glm::vec3& origin,
-            RayBatch* out) {
+            trees::RayBatch* out) {
   const Float16 zero = broadcast<Float16>(0.0f), two = broadcast<Float16>(2.0f);
   const Float16 ox = broadcast<Float16>(origin.x), oy = broadcast<Float16>(origin.y),
                 oz = broadcast<Float16>(origin.z);
@@ -41,8 +41,8 @@ float fall_off(const float* distances, int batches, float reach) {
                 inverse = broadcast<Float16>(1 / reach);
   Float16 sum = zero;
   for (int b = 0; b < batches; ++b)
-    sum = sum + max(zero, one - load<Float16>(distances + b * batch_size) * inverse);
-  float lanes[batch_size];
+    sum = sum + max(zero, one - load<Float16>(distances + b * trees::batch_size) * inverse);
+  float lanes[trees::batch_size];
   store(sum, lanes);
   float total = 0;
   for (const float lane : lanes) total += lane;

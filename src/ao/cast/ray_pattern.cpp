@@ -51,11 +51,12 @@ RayPattern make_ray_pattern(int rays, const glm::dvec2& shift) {
                    [](const glm::dvec2& a, const glm::dvec2& b) { return morton(a) < morton(b); });
   RayPattern pattern;
   pattern.rays = rays;
-  pattern.batches.resize((square.size() + batch_size - 1) / batch_size);  // zeros
+  pattern.batches.resize((square.size() + trees::batch_size - 1) / trees::batch_size);  // zeros
   for (std::size_t i = 0; i < square.size(); ++i) {
     const glm::vec3 d = hemisphere_from_square(glm::vec2(2.0 * square[i] - 1.0));
-    RayPattern::Batch& batch = pattern.batches[i / batch_size];
-    batch.x[i % batch_size] = d.x, batch.y[i % batch_size] = d.y, batch.z[i % batch_size] = d.z;
+    RayPattern::Batch& batch = pattern.batches[i / trees::batch_size];
+    batch.x[i % trees::batch_size] = d.x, batch.y[i % trees::batch_size] = d.y,
+                batch.z[i % trees::batch_size] = d.z;
   }
   return pattern;
 }

@@ -6,14 +6,14 @@
 #include <vector>
 
 #include <tenebra/simd_level.h>
-#include "ao/cast/ray_batch.h"
+#include "trees/ray_batch.h"
 
 namespace tenebra::ao {
 
 /// Directions about +z, unit; the last batch is filled up with zeros, which meet nothing.
 struct RayPattern {
   struct alignas(64) Batch {
-    float x[batch_size], y[batch_size], z[batch_size];
+    float x[trees::batch_size], y[trees::batch_size], z[trees::batch_size];
   };
   int rays = 0;
   std::vector<Batch> batches;
@@ -38,7 +38,7 @@ struct FanKernels {
   /// Rays of a point: the pattern in `axes`, those below the plane of `face` mirrored at it, so that a
   /// surface does not hide itself where its shading normal leans. One RayBatch for each batch of the pattern.
   void (*spread)(const RayPattern& pattern, const RayAxes& axes, const glm::vec3& face,
-                 const glm::vec3& origin, RayBatch* out) = nullptr;
+                 const glm::vec3& origin, trees::RayBatch* out) = nullptr;
   /// Sum of max(0, 1 - distance / reach) over whole batches.
   float (*fall_off)(const float* distances, int batches, float reach) = nullptr;
 };

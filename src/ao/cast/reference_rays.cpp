@@ -75,10 +75,10 @@ Expected<ReferenceRays> ReferenceRays::create(const TriangleView& triangles, con
   return ReferenceRays(std::move(state));
 }
 
-void ReferenceRays::nearest_hits(const RayBatch& rays, float* distances) const {
+void ReferenceRays::nearest_hits(const trees::RayBatch& rays, float* distances) const {
   alignas(64) int valid[16];
   RTCRayHit16 hits;
-  for (int i = 0; i < batch_size; ++i) {
+  for (int i = 0; i < trees::batch_size; ++i) {
     const glm::vec3 d = rays.direction(i);
     valid[i] = glm::dot(d, d) > 0 ? -1 : 0;
     hits.ray.org_x[i] = rays.ox[i], hits.ray.org_y[i] = rays.oy[i], hits.ray.org_z[i] = rays.oz[i];
@@ -88,7 +88,7 @@ void ReferenceRays::nearest_hits(const RayBatch& rays, float* distances) const {
     hits.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
   }
   EmbreeQuery().intersect16(valid, state_->scene, hits);
-  for (int i = 0; i < batch_size; ++i) {
+  for (int i = 0; i < trees::batch_size; ++i) {
     if (hits.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) distances[i] = hits.ray.tfar[i];
   }
 }
@@ -106,7 +106,7 @@ Expected<ReferenceRays> ReferenceRays::create(const TriangleView&, const StopFla
       "ambient occlusion by rays: this build has no ray caster; install Embree 3 or 4 (package "
       "libembree-dev), then configure and build again");
 }
-void ReferenceRays::nearest_hits(const RayBatch&, float*) const {}
+void ReferenceRays::nearest_hits(const trees::RayBatch&, float*) const {}
 
 }  // namespace tenebra::ao
 #endif

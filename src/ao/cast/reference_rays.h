@@ -8,7 +8,7 @@
 #include <tenebra/expected.h>
 #include <tenebra/stop_flag.h>
 #include <tenebra/visible_points.h>
-#include "ao/cast/ray_batch.h"
+#include "trees/ray_batch.h"
 
 namespace tenebra::ao {
 
@@ -22,7 +22,7 @@ public:
   ~ReferenceRays();
 
   /// distance[i] = where ray i first meets a triangle before distance[i]; else left as it is.
-  void nearest_hits(const RayBatch& rays, float* distances) const;
+  void nearest_hits(const trees::RayBatch& rays, float* distances) const;
 
 private:
   struct State;

@@ -85,14 +85,14 @@ namespace {
 // The view from one position: s of every direction, `no_hit` where there is none.
 class RowTracer {
 public:
-  RowTracer(const DisplacementField& field, const TriangleBvh& bvh)
-      : field_(field), bvh_(bvh), kernels_(bvh_kernels(SimdLevel::automatic)) {}
+  RowTracer(const DisplacementField& field, const trees::TriangleBvh& bvh)
+      : field_(field), bvh_(bvh), kernels_(trees::bvh_kernels(SimdLevel::automatic)) {}
 
   void trace(std::size_t position, std::span<float> row) const {
-    for (std::size_t d = 0; d < row.size(); d += batch_size) {
-      RayBatch rays{};
-      float t[batch_size], length[batch_size];
-      const std::size_t count = std::min<std::size_t>(batch_size, row.size() - d);
+    for (std::size_t d = 0; d < row.size(); d += trees::batch_size) {
+      trees::RayBatch rays{};
+      float t[trees::batch_size], length[trees::batch_size];
+      const std::size_t count = std::min<std::size_t>(trees::batch_size, row.size() - d);
       for (std::size_t i = 0; i < count; ++i) {
         const Chord chord = sample_chord(field_, position, d + i);
         rays.set(static_cast<int>(i),
@@ -100,7 +100,7 @@ public:
                  glm::vec3(field_.bound.axes) * chord.along);
         length[i] = glm::length(chord.along);
       }
-      std::fill(t, t + batch_size, 2.0f);
+      std::fill(t, t + trees::batch_size, 2.0f);
       kernels_.closest_batch(bvh_, rays, t);
       for (std::size_t i = 0; i < count; ++i)
         row[d + i] = t[i] <= 1 ? std::clamp((t[i] - 0.5f) * length[i], -1.0f, 1.0f) : no_hit;
@@ -109,8 +109,8 @@ public:
 
 private:
   const DisplacementField& field_;
-  const TriangleBvh& bvh_;
-  BvhKernels kernels_;
+  const trees::TriangleBvh& bvh_;
+  trees::BvhKernels kernels_;
 };
 
 void store_row(DisplacementField& field, std::size_t position, std::span<const float> row) {
@@ -139,7 +139,7 @@ void store_bits(DisplacementField& field, std::size_t position, std::span<const 
 }  // namespace
 
 Expected<DisplacementField> build_field(std::span<const glm::vec3> positions,
-                                        std::span<const glm::uvec3> triangles, const TriangleBvh& bvh,
+                                        std::span<const glm::uvec3> triangles, const trees::TriangleBvh& bvh,
                                         const FieldSettings& settings, const FieldProgress& progress,
                                         const StopFlag* stop) {
   const Expected<FieldShape> shape = field_shape(settings);

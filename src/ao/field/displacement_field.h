@@ -12,7 +12,7 @@
 #include <tenebra/ao_config.h>
 #include <tenebra/expected.h>
 #include <tenebra/stop_flag.h>
-#include "ao/cast/triangle_bvh.h"
+#include "trees/triangle_bvh.h"
 
 namespace tenebra::ao {
 
@@ -95,7 +95,7 @@ using FieldProgress = std::function<void(double done)>;
 /// Algorithm 1, on all cores; the same bits for any thread count and instruction set. Fails with "stopped" if
 /// `stop` was requested, on settings out of range, and on a mesh without a triangle of any area.
 Expected<DisplacementField> build_field(std::span<const glm::vec3> positions,
-                                        std::span<const glm::uvec3> triangles, const TriangleBvh& bvh,
+                                        std::span<const glm::uvec3> triangles, const trees::TriangleBvh& bvh,
                                         const FieldSettings& settings, const FieldProgress& progress = {},
                                         const StopFlag* stop = nullptr);
 

@@ -43,7 +43,7 @@ SIMD_INLINE Pack3<Float16> moved(const float rows[3][4], const Pack3<Float16>& p
           row_times(rows[2], p) + broadcast<Float16>(rows[2][3])};
 }
 
-SIMD_INLINE Chords chords_of(const FieldInstance& f, const RayBatch& rays) {
+SIMD_INLINE Chords chords_of(const FieldInstance& f, const trees::RayBatch& rays) {
   const Float16 one = broadcast<Float16>(1.0f), zero = broadcast<Float16>(0.0f);
   const Pack3<Float16> d{load<Float16>(rays.dx), load<Float16>(rays.dy), load<Float16>(rays.dz)};
   const Pack3<Float16> direction{row_times(f.unit_from_world[0], d), row_times(f.unit_from_world[1], d),

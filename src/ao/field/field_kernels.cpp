@@ -8,10 +8,10 @@
 #define HWY_TARGET_INCLUDE "ao/field/field_kernels.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h
-#include "ao/cast/bvh_trace-inl.h"
 #include "ao/field/field_chords-inl.h"
 #include "simd/dispatch.h"
 #include "simd/prefetch.h"
+#include "trees/bvh_trace-inl.h"
 
 #include <algorithm>
 #include <bit>
@@ -19,6 +19,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::ao::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
+using namespace trees::HWY_NAMESPACE;
 
 namespace {
 
@@ -41,13 +42,13 @@ SIMD_INLINE std::uint32_t close_rays(const DisplacementField& field, const Chord
 }
 
 // Casts the rays in `which` from t = from[i] to to[i]; to[i] becomes the distance of the hit if there is one.
-void cast(const FieldInstance& instance, const RayBatch& rays, std::uint32_t which, const float* from,
+void cast(const FieldInstance& instance, const trees::RayBatch& rays, std::uint32_t which, const float* from,
           float* to) {
   const auto& m = instance.object_from_world;
   for (; which != 0; which &= which - 1) {
     const int i = std::countr_zero(which);
     const glm::vec3 o = rays.origin(i), d = rays.direction(i);
-    CasterRay ray{.from = from[i], .to = to[i]};
+    trees::CasterRay ray{.from = from[i], .to = to[i]};
     for (int k = 0; k < 3; ++k) {
       ray.origin[k] = m[k][0] * o.x + m[k][1] * o.y + m[k][2] * o.z + m[k][3];
       ray.direction[k] = m[k][0] * d.x + m[k][1] * d.y + m[k][2] * d.z;
@@ -64,11 +65,12 @@ struct Answer {
 };
 
 // Rays that start close to the object are cast for one cell's width.
-SIMD_INLINE int cast_close(const FieldInstance& instance, const RayBatch& rays, const Chords& c,
+SIMD_INLINE int cast_close(const FieldInstance& instance, const trees::RayBatch& rays, const Chords& c,
                            Mask16 inside, Answer& answer) {
   const std::uint32_t close = close_rays(*instance.field, c, inside);
   if (close == 0) return 0;
-  float from[batch_size] = {}, start[batch_size], reach[batch_size], before[batch_size];
+  float from[trees::batch_size] = {}, start[trees::batch_size], reach[trees::batch_size],
+        before[trees::batch_size];
   store(answer.start, start);
   store(answer.before, before);
   store(broadcast<Float16>(cast_cells * instance.field->cell()) * c.per_unit, reach);
@@ -91,7 +93,7 @@ SIMD_INLINE int cast_close(const FieldInstance& instance, const RayBatch& rays, 
 // A ray that is in the open at t = start, between the first and the last hit of its chord. Next to one of
 // them, it is taken to lie before the first or behind the last. Else something may come before the last: it
 // is cast, or the last stands for it.
-SIMD_INLINE int between(const FieldInstance& instance, const RayBatch& rays, const Answer& answer,
+SIMD_INLINE int between(const FieldInstance& instance, const trees::RayBatch& rays, const Answer& answer,
                         Mask16 behind, Float16 first, Float16 last, Float16 tolerance, Float16& found) {
   const Float16 none = broadcast<Float16>(no_distance);
   const Float16 behind_first = answer.start - first, before_last = last - answer.start;
@@ -101,12 +103,12 @@ SIMD_INLINE int between(const FieldInstance& instance, const RayBatch& rays, con
   if (instance.near == nullptr) return 0;
   const std::uint32_t which = bits(deep);
   if (which == 0) return 0;
-  float from[batch_size], to[batch_size], limit[batch_size];
+  float from[trees::batch_size], to[trees::batch_size], limit[trees::batch_size];
   store(answer.start, from);
   store(answer.before, limit);
-  std::copy(limit, limit + batch_size, to);
+  std::copy(limit, limit + trees::batch_size, to);
   cast(instance, rays, which, from, to);
-  for (int i = 0; i < batch_size; ++i)
+  for (int i = 0; i < trees::batch_size; ++i)
     if (to[i] == limit[i]) to[i] = no_distance;
   found = select(deep, load<Float16>(to), found);
   return std::popcount(which);
@@ -123,13 +125,14 @@ struct Query {
 };
 
 SIMD_INLINE void prefetch(const DisplacementField& field, Int16 entry) {
-  std::int32_t at[batch_size];
+  std::int32_t at[trees::batch_size];
   store(byte_of(field, entry), at);
   for (const std::int32_t byte : at) simd::prefetch(field.table.data() + byte);
 }
 
 // Prefetches the table entries that the rays will need.
-SIMD_INLINE void begin(const FieldInstance& instance, const RayBatch& rays, const float* distance, Query& q) {
+SIMD_INLINE void begin(const FieldInstance& instance, const trees::RayBatch& rays, const float* distance,
+                       Query& q) {
   const Float16 zero = broadcast<Float16>(0.0f);
   const Chords c = q.chords = chords_of(instance, rays);
   const Float16 reach = c.half * c.per_unit, enter = c.at - reach;
@@ -144,7 +147,8 @@ SIMD_INLINE void begin(const FieldInstance& instance, const RayBatch& rays, cons
   prefetch(*instance.field, q.looks.from_enter().entry);
 }
 
-SIMD_INLINE int finish(const FieldInstance& instance, const RayBatch& rays, Query& q, float* distance) {
+SIMD_INLINE int finish(const FieldInstance& instance, const trees::RayBatch& rays, Query& q,
+                       float* distance) {
   const DisplacementField& field = *instance.field;
   const Chords& c = q.chords;
   if (!q.any) return 0;
@@ -167,15 +171,16 @@ SIMD_INLINE int finish(const FieldInstance& instance, const RayBatch& rays, Quer
   return casts;
 }
 
-int nearest_hits(const FieldInstance& instance, std::span<const RayBatch> rays, float* distances) {
+int nearest_hits(const FieldInstance& instance, std::span<const trees::RayBatch> rays, float* distances) {
   Query queries[in_flight];
   int casts = 0;
   for (; !rays.empty(); rays = rays.subspan(std::min(in_flight, rays.size()))) {
     const std::size_t count = std::min(in_flight, rays.size());
-    for (std::size_t i = 0; i < count; ++i) begin(instance, rays[i], distances + i * batch_size, queries[i]);
     for (std::size_t i = 0; i < count; ++i)
-      casts += finish(instance, rays[i], queries[i], distances + i * batch_size);
-    distances += count * batch_size;
+      begin(instance, rays[i], distances + i * trees::batch_size, queries[i]);
+    for (std::size_t i = 0; i < count; ++i)
+      casts += finish(instance, rays[i], queries[i], distances + i * trees::batch_size);
+    distances += count * trees::batch_size;
   }
   return casts;
 }

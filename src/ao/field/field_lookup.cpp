@@ -34,7 +34,7 @@ double longest_axis(const glm::dmat3& linear) {
 
 }  // namespace
 
-std::optional<FieldInstance> place_field(const DisplacementField& field, const TriangleBvh* near,
+std::optional<FieldInstance> place_field(const DisplacementField& field, const trees::TriangleBvh* near,
                                          const glm::dmat4& world_from_object, FieldEnds ends) {
   FieldInstance instance{.field = &field, .near = near, .ends = ends};
   const glm::dmat3 linear(world_from_object);

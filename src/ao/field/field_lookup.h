@@ -7,8 +7,8 @@
 #include <span>
 
 #include <tenebra/simd_level.h>
-#include "ao/cast/ray_batch.h"
 #include "ao/field/displacement_field.h"
+#include "trees/ray_batch.h"
 
 namespace tenebra::ao {
 
@@ -24,8 +24,9 @@ enum class FieldEnds {
 /// the ray is moved into the object's space, where distances along it stay what they are.
 struct FieldInstance {
   const DisplacementField* field = nullptr;
-  const TriangleBvh* near = nullptr;  ///< if given, casts what the field cannot tell: the first part of rays
-                                      ///< that start next to the object, and rays from deep inside its hull
+  const trees::TriangleBvh* near =
+      nullptr;  ///< if given, casts what the field cannot tell: the first part of rays
+                ///< that start next to the object, and rays from deep inside its hull
   FieldEnds ends = FieldEnds::both;
   float unit_from_world[3][4] = {};  ///< rows
   float object_from_world[3][4] = {};
@@ -33,7 +34,7 @@ struct FieldInstance {
 };
 
 /// Nothing if the transform has no inverse in float (a flattened object): there is no volume to look into.
-std::optional<FieldInstance> place_field(const DisplacementField& field, const TriangleBvh* near,
+std::optional<FieldInstance> place_field(const DisplacementField& field, const trees::TriangleBvh* near,
                                          const glm::dmat4& world_from_object,
                                          FieldEnds ends = FieldEnds::both);
 
@@ -44,7 +45,7 @@ struct FieldKernels {
   /// From outside the sphere: the sample of the ray's nearest chord. From inside: see FieldEnds. Returns the
   /// number of rays of which a part was cast. Best given all rays of a point in one call: a batch's look-ups
   /// wait for memory while the next ones are worked on.
-  int (*nearest_hits)(const FieldInstance& instance, std::span<const RayBatch> rays,
+  int (*nearest_hits)(const FieldInstance& instance, std::span<const trees::RayBatch> rays,
                       float* distances) = nullptr;
 };
 FieldKernels field_kernels(SimdLevel level);

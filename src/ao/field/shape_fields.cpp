@@ -79,7 +79,7 @@ void ShapeFields::load(std::span<const int> shapes) {
     if (!note.empty()) notes_.push_back(std::move(note));
 }
 
-Expected<const DisplacementField*> ShapeFields::make(int shape, const TriangleBvh& casters,
+Expected<const DisplacementField*> ShapeFields::make(int shape, const trees::TriangleBvh& casters,
                                                      const FieldProgress& progress, const StopFlag* stop) {
   if (const DisplacementField* there = find(shape)) return there;
   Kept& kept = fields_[static_cast<std::size_t>(shape)];

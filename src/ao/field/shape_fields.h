@@ -43,7 +43,7 @@ public:
   /// Reads those of `shapes` (ascending, unique) that are on disk, many at once.
   void load(std::span<const int> shapes);
   /// Null: no room. Fails with "stopped".
-  Expected<const DisplacementField*> make(int shape, const TriangleBvh& casters,
+  Expected<const DisplacementField*> make(int shape, const trees::TriangleBvh& casters,
                                           const FieldProgress& progress, const StopFlag* stop);
 
   /// Of those that this frame does not need, the one that was used least recently, by the number of its

@@ -46,7 +46,7 @@ int Bodies::body_of(std::int32_t object, Occluders& occluders) {
   }
   const ObjectShape& geometry =
       shape < 0 ? objects_->standing : objects_->shapes[static_cast<std::size_t>(shape)];
-  const TriangleBvh* casters = occluders.casters(shape);
+  const trees::TriangleBvh* casters = occluders.casters(shape);
   if (casters == nullptr) return -1;
   Body body;  // added once it is whole: memory may run out before
   body.shape = shape;

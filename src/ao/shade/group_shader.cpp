@@ -82,12 +82,12 @@ void GroupShader::cast_others(GroupReport& report) {
   for (std::size_t first = 0; first < asked_.size(); first += at_once) {
     const auto asked = std::span(asked_).subspan(first, std::min(at_once, asked_.size() - first));
     batches_.resize(asked.size() * batches);
-    distances_.assign(asked.size() * batches * batch_size, rays_->reach());
+    distances_.assign(asked.size() * batches * trees::batch_size, rays_->reach());
     for (std::size_t k = 0; k < asked.size(); ++k)
       rays_->spread(receivers_[asked[k]], &batches_[k * batches]);
     meet_near(asked, report);
     for (std::size_t k = 0; k < asked.size(); ++k)
-      others_[asked[k]] = rays_->hidden(&distances_[k * batches * batch_size]);
+      others_[asked[k]] = rays_->hidden(&distances_[k * batches * trees::batch_size]);
   }
 }
 
@@ -103,7 +103,7 @@ void GroupShader::meet_near(std::span<const std::size_t> asked, GroupReport& rep
       while (last < asked.size() && reached[asked[last]] != 0 && owner(last) == owner(first)) ++last;
       occluders_->meet(near_[n], owner(first),
                        std::span(batches_).subspan(first * batches, (last - first) * batches),
-                       &distances_[first * batches * batch_size], report.counts);
+                       &distances_[first * batches * trees::batch_size], report.counts);
     }
   }
 }

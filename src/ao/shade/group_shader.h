@@ -66,7 +66,7 @@ private:
   std::vector<int> near_;              ///< occluders in reach of some receiver
   std::vector<std::uint8_t> reached_;  ///< one per occluder and receiver
   std::vector<std::size_t> asked_;     ///< receivers with something in reach
-  std::vector<RayBatch> batches_;
+  std::vector<trees::RayBatch> batches_;
   std::vector<float> distances_;
 };
 

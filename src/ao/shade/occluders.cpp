@@ -32,18 +32,19 @@ Sphere sphere_around(std::span<const vec3> positions, std::span<const glm::uvec3
 }
 
 /// Sixteen rays moved into the space of an object; distances along them stay the same.
-RayBatch moved(const RayBatch& rays, const glm::mat4x3& to_object) {
-  RayBatch out;
-  for (int i = 0; i < batch_size; ++i) {
+trees::RayBatch moved(const trees::RayBatch& rays, const glm::mat4x3& to_object) {
+  trees::RayBatch out;
+  for (int i = 0; i < trees::batch_size; ++i) {
     out.set(i, to_object * glm::vec4(rays.origin(i), 1.0f), to_object * glm::vec4(rays.direction(i), 0.0f));
   }
   return out;
 }
 
 /// The same for rays from one point, which is given in the space of the object.
-RayBatch turned(const RayBatch& rays, const vec3& start, const glm::mat4x3& to_object) {
-  RayBatch out;
-  for (int i = 0; i < batch_size; ++i) out.set(i, start, to_object * glm::vec4(rays.direction(i), 0.0f));
+trees::RayBatch turned(const trees::RayBatch& rays, const vec3& start, const glm::mat4x3& to_object) {
+  trees::RayBatch out;
+  for (int i = 0; i < trees::batch_size; ++i)
+    out.set(i, start, to_object * glm::vec4(rays.direction(i), 0.0f));
   return out;
 }
 
@@ -184,16 +185,16 @@ Expected<void> Occluders::build(std::span<const int> missing, const AoProgress& 
     } else if (auto built = build_object(static_cast<std::size_t>(occluder), progress); !built) {
       return built;
     }
-    if (stop_requested(stop_)) return base::stopped();
+    if (stop_requested(stop_)) return base::fail("stopped");
   }
   return {};
 }
 
-std::optional<TriangleBvh> Occluders::tree_of_deforming() const {
-  return build_triangle_bvh(geometry_->positions, deforming_triangles(*objects_, *geometry_), stop_);
+std::optional<trees::TriangleBvh> Occluders::tree_of_deforming() const {
+  return trees::build_triangle_bvh(geometry_->positions, deforming_triangles(*objects_, *geometry_), stop_);
 }
 
-const TriangleBvh* Occluders::casters(int index) {
+const trees::TriangleBvh* Occluders::casters(int index) {
   auto& tree = index < 0 ? standing_ : shapes_[static_cast<std::size_t>(index)].casters;
   const ObjectShape& shape =
       index < 0 ? objects_->standing : objects_->shapes[static_cast<std::size_t>(index)];
@@ -210,7 +211,7 @@ std::vector<std::string> Occluders::take_notes() {
 }
 
 /// Not where triangles are few, or where the shape was found to be placed flat.
-bool Occluders::wants_field(int number, const TriangleBvh& casters) {
+bool Occluders::wants_field(int number, const trees::TriangleBvh& casters) {
   Shape& shape = shapes_[static_cast<std::size_t>(number)];
   shape.by_rays |= casters.triangles <= few_triangles;
   return !shape.by_rays;
@@ -221,7 +222,7 @@ void Occluders::load_fields(std::span<const int> occluders) {
   for (const int occluder : occluders) {
     if (occluder < 0) continue;
     const int shape = placed_[static_cast<std::size_t>(occluder)].shape;
-    const TriangleBvh* tree = casters(shape);
+    const trees::TriangleBvh* tree = casters(shape);
     if (tree == nullptr) return;
     if (wants_field(shape, *tree)) shapes.push_back(shape);
   }
@@ -231,8 +232,8 @@ void Occluders::load_fields(std::span<const int> occluders) {
 
 Expected<void> Occluders::build_object(std::size_t index, const AoProgress& progress) {
   Placed& placed = placed_[index];
-  const TriangleBvh* tree = casters(placed.shape);
-  if (tree == nullptr) return base::stopped();
+  const trees::TriangleBvh* tree = casters(placed.shape);
+  if (tree == nullptr) return base::fail("stopped");
   if (!wants_field(placed.shape, *tree)) return {};
   const FieldProgress report = [&](double done) {
     if (progress) progress("displacement fields", done);
@@ -255,16 +256,18 @@ void Occluders::drop_field(int shape) {
     if (placed.shape == shape) placed.instance.reset();
 }
 
-void Occluders::meet(int occluder, std::int32_t owner, std::span<const RayBatch> rays, float* distances,
-                     OccluderCounts& counts) const {
+void Occluders::meet(int occluder, std::int32_t owner, std::span<const trees::RayBatch> rays,
+                     float* distances, OccluderCounts& counts) const {
   const auto each = [&](const auto& hit) {
-    for (std::size_t b = 0; b < rays.size(); ++b) hit(rays[b], distances + b * batch_size);
+    for (std::size_t b = 0; b < rays.size(); ++b) hit(rays[b], distances + b * trees::batch_size);
   };
-  const std::uint64_t all = rays.size() * batch_size;
+  const std::uint64_t all = rays.size() * trees::batch_size;
   if (occluder < 0) {
-    const TriangleBvh& tree = occluder == standing ? *standing_ : *deforming_;
+    const trees::TriangleBvh& tree = occluder == standing ? *standing_ : *deforming_;
     counts.rays_cast += all;
-    return each([&](const RayBatch& batch, float* out) { kernels_.cast(tree, {&batch, 1}, out, nullptr); });
+    return each([&](const trees::RayBatch& batch, float* out) {
+      kernels_.cast(tree, {&batch, 1}, out, nullptr);
+    });
   }
   const Placed& placed = placed_[static_cast<std::size_t>(occluder)];
   if (placed.instance && occluder != owner) {
@@ -273,10 +276,10 @@ void Occluders::meet(int occluder, std::int32_t owner, std::span<const RayBatch>
         static_cast<std::uint64_t>(kernels_.field.nearest_hits(*placed.instance, rays, distances));
     return;
   }
-  const TriangleBvh& tree = *shapes_[static_cast<std::size_t>(placed.shape)].casters;
+  const trees::TriangleBvh& tree = *shapes_[static_cast<std::size_t>(placed.shape)].casters;
   counts.rays_cast += all;
-  each([&](const RayBatch& batch, float* out) {
-    const RayBatch there = moved(batch, placed.to_object);
+  each([&](const trees::RayBatch& batch, float* out) {
+    const trees::RayBatch there = moved(batch, placed.to_object);
     kernels_.cast(tree, {&there, 1}, out, nullptr);
   });
 }
@@ -297,12 +300,12 @@ bool Occluders::gather_moving(std::span<const int> occluders) {
     if (wanted && geometry_->casts_shadow[id] && !(t.x == t.y && t.y == t.z)) triangles.push_back(t);
   }
   if (triangles.empty() || triangles.size() > most_gathered) return false;
-  moving_ = build_triangle_bvh(geometry_->positions, triangles, stop_);
+  moving_ = trees::build_triangle_bvh(geometry_->positions, triangles, stop_);
   moving_sphere_ = sphere_around(geometry_->positions, triangles);
   return moving_.has_value();
 }
 
-const TriangleBvh& Occluders::world_tree(int occluder) const {
+const trees::TriangleBvh& Occluders::world_tree(int occluder) const {
   return occluder == standing ? *standing_ : occluder == deforming ? *deforming_ : *moving_;
 }
 
@@ -313,7 +316,7 @@ void Occluders::build_trees(std::span<const int> occluders) {
       if (!deforming_) deforming_ = tree_of_deforming();
     } else {
       const int shape = occluder == standing ? -1 : placed_[static_cast<std::size_t>(occluder)].shape;
-      const TriangleBvh* tree = casters(shape);
+      const trees::TriangleBvh* tree = casters(shape);
       if (shape < 0 || tree == nullptr) continue;
       Shape& kept = shapes_[static_cast<std::size_t>(shape)];
       kept.lift = surface_lift(largest_coordinate(objects_->shapes[static_cast<std::size_t>(shape)]));
@@ -323,10 +326,10 @@ void Occluders::build_trees(std::span<const int> occluders) {
 }
 
 void Occluders::meet_triangles(int occluder, const Receiver& receiver, const dvec3& origin,
-                               std::span<const RayBatch> rays, float* distances,
+                               std::span<const trees::RayBatch> rays, float* distances,
                                OccluderCounts& counts) const {
   if (occluder < 0) {
-    counts.rays_cast += rays.size() * batch_size;
+    counts.rays_cast += rays.size() * trees::batch_size;
     return kernels_.cast(world_tree(occluder), rays, distances, nullptr);
   }
   const MovingObject& object = objects_->objects[static_cast<std::size_t>(occluder)];
@@ -340,12 +343,12 @@ void Occluders::meet_triangles(int occluder, const Receiver& receiver, const dve
                          : vec3(object.to_object * glm::dvec4(origin, 1.0));
   const double away = double{shape.box.distance_to(start)} * object.largest_scale;
   if (away > reach_ * (1 + 0x1p-18)) return;
-  counts.rays_cast += rays.size() * batch_size;
-  RayBatch there[fans_at_once];
-  for (std::size_t first = 0; first < rays.size(); first += fans_at_once) {
-    const std::size_t count = std::min(fans_at_once, rays.size() - first);
+  counts.rays_cast += rays.size() * trees::batch_size;
+  trees::RayBatch there[trees::fans_at_once];
+  for (std::size_t first = 0; first < rays.size(); first += trees::fans_at_once) {
+    const std::size_t count = std::min(trees::fans_at_once, rays.size() - first);
     for (std::size_t b = 0; b < count; ++b) there[b] = turned(rays[first + b], start, placed.to_object);
-    kernels_.cast(*shape.casters, {there, count}, distances + first * batch_size, nullptr);
+    kernels_.cast(*shape.casters, {there, count}, distances + first * trees::batch_size, nullptr);
   }
 }
 

@@ -16,12 +16,12 @@
 
 #include <tenebra/expected.h>
 #include "ao/cache/tree_file.h"
-#include "ao/cast/triangle_bvh.h"
 #include "ao/field/ao_kernels.h"
 #include "ao/field/shape_fields.h"
 #include "ao/objects/scene_objects.h"
 #include "ao/shade/receivers.h"
 #include "math/box.h"
+#include "trees/triangle_bvh.h"
 
 namespace tenebra::ao {
 
@@ -72,7 +72,7 @@ public:
 
   /// Shortens the distances of rays of points on object `owner` to where they hit `occluder`. The rays of a
   /// batch start at one point.
-  void meet(int occluder, std::int32_t owner, std::span<const RayBatch> rays, float* distances,
+  void meet(int occluder, std::int32_t owner, std::span<const trees::RayBatch> rays, float* distances,
             OccluderCounts& counts) const;
 
   /// One tree, in the world, of all that moves and is named in `occluders` (what deforms too), for this
@@ -84,20 +84,20 @@ public:
   /// Like meet(), but by triangles alone, those of the receiver's own body, too. The rays run in the world
   /// and start at `origin`: the receiver's position, lifted off its face.
   void meet_triangles(int occluder, const Receiver& receiver, const glm::dvec3& origin,
-                      std::span<const RayBatch> rays, float* distances, OccluderCounts& counts) const;
+                      std::span<const trees::RayBatch> rays, float* distances, OccluderCounts& counts) const;
 
   /// The tree over the casting triangles of a shape, or of what stands (-1): those of many triangles are kept
   /// on disk. Null: a stop was requested.
-  const TriangleBvh* casters(int shape);
+  const trees::TriangleBvh* casters(int shape);
 
   std::vector<std::string> take_notes();
 
 private:
   const Sphere& sphere(int occluder) const;
-  const TriangleBvh& world_tree(int occluder) const;
+  const trees::TriangleBvh& world_tree(int occluder) const;
   struct Shape {
     std::uint64_t hash = 0;
-    std::optional<TriangleBvh> casters;
+    std::optional<trees::TriangleBvh> casters;
     bool by_rays = false;
     float lift = 0;  ///< surface_lift(), once there are casters
     math::Box<float> box;
@@ -110,9 +110,9 @@ private:
     glm::mat4x3 to_object{1.0f};
   };
   Expected<void> build_object(std::size_t object, const AoProgress& progress);
-  std::optional<TriangleBvh> tree_of_deforming() const;
+  std::optional<trees::TriangleBvh> tree_of_deforming() const;
   void load_fields(std::span<const int> occluders);
-  bool wants_field(int shape, const TriangleBvh& casters);
+  bool wants_field(int shape, const trees::TriangleBvh& casters);
   void place(std::size_t object);
 
   const SceneObjects* objects_ = nullptr;
@@ -126,7 +126,7 @@ private:
   std::vector<Placed> placed_;     ///< one per object
   std::vector<std::size_t> by_x_;  ///< visible objects by the middle of their spheres
   double largest_radius_ = 0;
-  std::optional<TriangleBvh> standing_, deforming_, moving_;
+  std::optional<trees::TriangleBvh> standing_, deforming_, moving_;
   Sphere standing_sphere_, deforming_sphere_, moving_sphere_;
   KeptTrees trees_;
 };

@@ -12,7 +12,7 @@ void PointRays::begin_frame(const SceneObjects& objects, int rays, double reach,
   lift_ = surface_lift(largest_coordinate(objects.standing));
 }
 
-void PointRays::spread(const Receiver& receiver, RayBatch* out) const {
+void PointRays::spread(const Receiver& receiver, trees::RayBatch* out) const {
   constexpr double cell = 1.0 / 256;  // of the reach: in each cell rays are turned by another angle
   const glm::dvec3 size = glm::abs(receiver.position);
   const float off = std::max(lift_, surface_lift(std::max({size.x, size.y, size.z})));

@@ -16,7 +16,7 @@ public:
   std::size_t batches() const { return pattern_.batches.size(); }  ///< per receiver
   int rays() const { return pattern_.rays; }                       ///< per receiver
   /// Batches of the receiver's rays: they belong to its place on its object, not to the camera.
-  void spread(const Receiver& receiver, RayBatch* out) const;
+  void spread(const Receiver& receiver, trees::RayBatch* out) const;
   /// Hidden share, 0..1, by the distances of all batches; without a hit a distance is the reach.
   float hidden(const float* distances) const;
 

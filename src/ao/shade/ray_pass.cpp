@@ -22,9 +22,9 @@ std::uint64_t cast_receivers(const ReceiverSet& set, const PointRays& rays, cons
     for (const Receiver& receiver : own.receivers) {
       if (stop_requested(stop)) return;
       rays.spread(receiver, own.batches.data());
-      own.distances.assign(rays.batches() * batch_size, rays.reach());
+      own.distances.assign(rays.batches() * trees::batch_size, rays.reach());
       for (std::size_t b = 0; b < own.batches.size(); ++b)
-        reference.nearest_hits(own.batches[b], own.distances.data() + b * batch_size);
+        reference.nearest_hits(own.batches[b], own.distances.data() + b * trees::batch_size);
       values[receiver.index] = 1 - rays.hidden(own.distances.data());
     }
   });

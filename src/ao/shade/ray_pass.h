@@ -12,7 +12,7 @@ namespace tenebra::ao {
 struct RayRoom {
   struct Worker {
     std::vector<Receiver> receivers;
-    std::vector<RayBatch> batches;
+    std::vector<trees::RayBatch> batches;
     std::vector<float> distances;
   };
   std::vector<Worker> workers;        ///< one for each thread

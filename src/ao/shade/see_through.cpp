@@ -40,7 +40,7 @@ void SeeThroughOccluders::begin_frame(const Scene& scene, const FrameGeometry& g
 void SeeThroughOccluders::add_layer(int step, const std::vector<glm::uvec3>& triangles,
                                     const FrameGeometry& geometry, const StopFlag* stop) {
   if (triangles.empty()) return;
-  auto tree = build_triangle_bvh(geometry.positions, triangles, stop);
+  auto tree = trees::build_triangle_bvh(geometry.positions, triangles, stop);
   if (!tree) return;
   Layer& layer = layers_.emplace_back();
   layer.opacity = static_cast<float>(step) / opacity_steps;
@@ -53,7 +53,7 @@ void SeeThroughOccluders::darken(const ReceiverSet& set, const PointRays& rays, 
                                  std::span<float> values, AoStats& stats, const StopFlag* stop) const {
   struct Scratch {
     std::vector<Receiver> receivers;
-    std::vector<RayBatch> batches;
+    std::vector<trees::RayBatch> batches;
     std::vector<float> distances;
   };
   std::vector<Scratch> scratch(static_cast<std::size_t>(thread_count()));
@@ -69,7 +69,7 @@ void SeeThroughOccluders::darken(const ReceiverSet& set, const PointRays& rays, 
       if (own.receivers.empty() || apart(box, layer.box, rays.reach())) continue;
       for (const Receiver& receiver : own.receivers) {
         rays.spread(receiver, own.batches.data());
-        own.distances.assign(rays.batches() * batch_size, rays.reach());
+        own.distances.assign(rays.batches() * trees::batch_size, rays.reach());
         kernels.cast(layer.triangles, own.batches, own.distances.data(), nullptr);
         values[receiver.index] *= 1 - layer.opacity * rays.hidden(own.distances.data());
         cast[static_cast<std::size_t>(group)] += static_cast<std::uint64_t>(rays.rays());
@@ -79,7 +79,7 @@ void SeeThroughOccluders::darken(const ReceiverSet& set, const PointRays& rays, 
   stats.rays_cast += std::accumulate(cast.begin(), cast.end(), std::uint64_t{0});
 }
 
-float SeeThroughOccluders::left(const glm::dvec3& point, std::span<const RayBatch> rays, int count,
+float SeeThroughOccluders::left(const glm::dvec3& point, std::span<const trees::RayBatch> rays, int count,
                                 float reach, const AoKernels& kernels, std::span<float> distances,
                                 OccluderCounts& counts) const {
   math::Box<double> box;
@@ -91,7 +91,7 @@ float SeeThroughOccluders::left(const glm::dvec3& point, std::span<const RayBatc
     kernels.cast(layer.triangles, rays, distances.data(), nullptr);
     const float hidden = kernels.fan.fall_off(distances.data(), static_cast<int>(rays.size()), reach);
     open *= 1 - layer.opacity * std::clamp(hidden / static_cast<float>(count), 0.0f, 1.0f);
-    counts.rays_cast += rays.size() * batch_size;
+    counts.rays_cast += rays.size() * trees::batch_size;
   }
   return open;
 }

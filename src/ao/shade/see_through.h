@@ -29,7 +29,7 @@ public:
 
   /// The share of a point's light that passes, 0..1, by its rays: `count` of them, in batches. Overwrites
   /// `distances`, one for each.
-  float left(const glm::dvec3& point, std::span<const RayBatch> rays, int count, float reach,
+  float left(const glm::dvec3& point, std::span<const trees::RayBatch> rays, int count, float reach,
              const AoKernels& kernels, std::span<float> distances, OccluderCounts& counts) const;
 
 private:
@@ -38,7 +38,7 @@ private:
   struct Layer {
     float opacity = 0;
     math::Box<double> box;
-    TriangleBvh triangles;
+    trees::TriangleBvh triangles;
   };
   void add_layer(int step, const std::vector<glm::uvec3>& triangles, const FrameGeometry& geometry,
                  const StopFlag* stop);

@@ -62,7 +62,7 @@ std::size_t cell_bytes(std::size_t cells) {
 
 }  // namespace
 
-SelfOcclusion::SelfOcclusion(const ObjectShape& shape, const TriangleBvh& casters, double reach,
+SelfOcclusion::SelfOcclusion(const ObjectShape& shape, const trees::TriangleBvh& casters, double reach,
                              std::size_t cells, MemoryBudget* budget)
     : shape_(shape), reach_(reach), rays_(shape, casters, reach), most_cells_(cells) {
   if (budget != nullptr) share_ = MemoryShare(*budget);

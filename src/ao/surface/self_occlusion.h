@@ -44,7 +44,7 @@ public:
 
   /// `reach`: where occlusion has fallen off to nothing, in units of the shape. Keeps references to all.
   /// Without samples until lay() is called.
-  SelfOcclusion(const ObjectShape& shape, const TriangleBvh& casters, double reach,
+  SelfOcclusion(const ObjectShape& shape, const trees::TriangleBvh& casters, double reach,
                 std::size_t cells = most_cells, MemoryBudget* budget = nullptr);
 
   /// The part of lay() that takes time, and nothing of the budget: for many bodies at once.

@@ -15,11 +15,11 @@ using glm::vec3;
 
 /// Sixteen directions all around, three degrees above the surface: they see what is low.
 RayPattern grazing_pattern() {
-  constexpr double up = 0.0524, around = 2 * std::numbers::pi / batch_size;
+  constexpr double up = 0.0524, around = 2 * std::numbers::pi / trees::batch_size;
   RayPattern pattern;
-  pattern.rays = batch_size;
+  pattern.rays = trees::batch_size;
   pattern.batches.resize(1);
-  for (int i = 0; i < batch_size; ++i) {
+  for (int i = 0; i < trees::batch_size; ++i) {
     pattern.batches[0].x[i] = static_cast<float>(std::sqrt(1 - up * up) * std::cos(i * around));
     pattern.batches[0].y[i] = static_cast<float>(std::sqrt(1 - up * up) * std::sin(i * around));
     pattern.batches[0].z[i] = static_cast<float>(up);
@@ -40,7 +40,7 @@ float surface_lift(double largest_coordinate) {
   return static_cast<float>(4 * 1.7320508 * 0x1p-24 * largest_coordinate);
 }
 
-SurfaceRays::SurfaceRays(const ObjectShape& shape, const TriangleBvh& casters, double reach)
+SurfaceRays::SurfaceRays(const ObjectShape& shape, const trees::TriangleBvh& casters, double reach)
     : shape_(shape),
       casters_(casters),
       reach_(static_cast<float>(reach)),
@@ -49,7 +49,7 @@ SurfaceRays::SurfaceRays(const ObjectShape& shape, const TriangleBvh& casters, d
       grazing_(grazing_pattern()) {}
 
 SurfaceRays::Seen SurfaceRays::look(const SurfacePoint& point, const AoKernels& kernels) const {
-  constexpr int batches = rays / batch_size;
+  constexpr int batches = rays / trees::batch_size;
   const glm::uvec3 t = shape_.triangles[point.triangle];
   vec3 face = face_normal(shape_, point.triangle);
   if (face == vec3(0.0f)) return {.nearest = reach_};
@@ -62,8 +62,8 @@ SurfaceRays::Seen SurfaceRays::look(const SurfacePoint& point, const AoKernels& 
   const dvec3 p = double{u} * dvec3(shape_.positions[t.x]) + double{point.v} * dvec3(shape_.positions[t.y]) +
                   double{point.w} * dvec3(shape_.positions[t.z]);
   const vec3 origin(p + double{lift_} * dvec3(face));
-  RayBatch fan[batches + 1];
-  alignas(64) float distances[(batches + 1) * batch_size], facing[(batches + 1) * batch_size];
+  trees::RayBatch fan[batches + 1];
+  alignas(64) float distances[(batches + 1) * trees::batch_size], facing[(batches + 1) * trees::batch_size];
   const Frame frame = frame_around(normal), flat = frame_around(face);
   kernels.fan.spread(pattern_, {frame.x, frame.y, normal}, face, origin, fan);
   kernels.fan.spread(grazing_, {flat.x, flat.y, face}, face, origin, fan + batches);

@@ -1,9 +1,9 @@
 // Where rays from a point of a body's surface meet the body itself.
 #pragma once
 
-#include "ao/cast/triangle_bvh.h"
 #include "ao/field/ao_kernels.h"
 #include "ao/surface/surface_layout.h"
+#include "trees/triangle_bvh.h"
 
 namespace tenebra::ao {
 
@@ -17,7 +17,7 @@ public:
   static constexpr int rays = 256;  ///< per point, about its shading normal
 
   /// `reach`: where occlusion has fallen off to nothing, in units of the shape. Keeps references to both.
-  SurfaceRays(const ObjectShape& shape, const TriangleBvh& casters, double reach);
+  SurfaceRays(const ObjectShape& shape, const trees::TriangleBvh& casters, double reach);
 
   struct Seen {
     float occlusion = 0;  ///< 0..1
@@ -28,7 +28,7 @@ public:
 
 private:
   const ObjectShape& shape_;
-  const TriangleBvh& casters_;
+  const trees::TriangleBvh& casters_;
   float reach_;
   float lift_;
   RayPattern pattern_, grazing_;

@@ -3,12 +3,12 @@
 // edges: three dot products, and two triangles that share an edge leave no gap, for their planes there differ
 // in sign only.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "ao/cast/fan_caster.cpp"
+#define HWY_TARGET_INCLUDE "trees/fan_caster.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h
-#include "ao/cast/fan_caster.h"
 #include "simd/dispatch.h"
 #include "simd/pack-inl.h"
+#include "trees/fan_caster.h"
 
 #include <algorithm>
 #include <bit>
@@ -16,7 +16,7 @@
 #include <limits>
 
 HWY_BEFORE_NAMESPACE();
-namespace tenebra::ao::HWY_NAMESPACE {
+namespace tenebra::trees::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
 namespace {
@@ -164,7 +164,7 @@ struct EdgePlanes {
   std::uint32_t near;                    // triangles whose planes are within the reach
 };
 
-SIMD_INLINE void edge_planes(const TriangleBlock& block, const Fans& fans, EdgePlanes& out) {
+SIMD_INLINE void edge_planes(const BvhTriangles& block, const Fans& fans, EdgePlanes& out) {
   Pack3<Float8> p[3];
   for (int k = 0; k < 3; ++k) {
     p[k] = {load<Float8>(block.corner[k][0]) - broadcast<Float8>(fans.origin[0]),
@@ -234,7 +234,7 @@ SIMD_INLINE bool meet_triangles(const EdgePlanes& planes, Fans& fans, int ray) {
 }
 
 // A triangle at a time or a ray at a time, whichever takes fewer tests.
-SIMD_INLINE void meet_block(const TriangleBlock& block, Fans& fans, RayBits rays) {
+SIMD_INLINE void meet_block(const BvhTriangles& block, Fans& fans, RayBits rays) {
   EdgePlanes planes;
   edge_planes(block, fans, planes);
   bool met = false;
@@ -310,16 +310,16 @@ ClosestFans closest_fans_kernel() {
   return closest_fans;
 }
 
-}  // namespace tenebra::ao::HWY_NAMESPACE
+}  // namespace tenebra::trees::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 
-namespace tenebra::ao {
+namespace tenebra::trees {
 
 ClosestFans closest_fans(SimdLevel level) {
   return TENEBRA_DISPATCH(level, closest_fans_kernel)();
 }
 
-}  // namespace tenebra::ao
+}  // namespace tenebra::trees
 #endif

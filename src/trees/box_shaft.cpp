@@ -1,17 +1,20 @@
-#include "tint/shaft.h"
+#include "trees/box_shaft.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace tenebra::tint {
+namespace tenebra::trees {
 namespace {
 
 /// The line that touches two rectangles from the side (`si`, `sj`), if there is one. Its normal is off by at
 /// most 2^-52 of the coordinates, and places in the hull are off by at most that times the hull's size: the
 /// limit is wider than this and the rounding of its own sums by far.
-bool touching_line(const Box& a, const Box& b, int i, int j, int si, int sj, double reach, ShaftPlane& out) {
-  const auto corner = [](const Box& box, int axis, int s) { return s > 0 ? box.high[axis] : box.low[axis]; };
+bool touching_line(const math::Box<double>& a, const math::Box<double>& b, int i, int j, int si, int sj,
+                   double reach, BoxShaft::Plane& out) {
+  const auto corner = [](const math::Box<double>& box, int axis, int s) {
+    return s > 0 ? box.high[axis] : box.low[axis];
+  };
   const double ai = corner(a, i, si), aj = corner(a, j, sj);
   const double di = corner(b, i, si) - ai, dj = corner(b, j, sj) - aj;
   double m = dj, n = -di;
@@ -27,8 +30,8 @@ bool touching_line(const Box& a, const Box& b, int i, int j, int si, int sj, dou
 
 }  // namespace
 
-Shaft shaft_between(const Box& a, const Box& b) {
-  Shaft shaft;
+BoxShaft shaft_between(const math::Box<double>& a, const math::Box<double>& b) {
+  BoxShaft shaft;
   const glm::dvec3 low = glm::min(a.low, b.low), high = glm::max(a.high, b.high);
   const glm::dvec3 most = glm::max(glm::abs(low), glm::abs(high));
   shaft.box = {low, high};
@@ -53,17 +56,17 @@ float rounded_up(double x) {
 }  // namespace
 
 // |m| + |n| is 1 but for rounding: the value of a plane rounds by less than 2^-21 of the reach.
-FloatShaft::FloatShaft(const Shaft& shaft, double reach) : count(shaft.count) {
+FloatShaft::FloatShaft(const BoxShaft& shaft, double reach) : count(shaft.count) {
   for (int axis = 0; axis < 3; ++axis) {
     low[axis] = -rounded_up(-shaft.box.low[axis]);
     high[axis] = rounded_up(shaft.box.high[axis]);
   }
   for (int p = 0; p < count; ++p) {
-    const ShaftPlane& plane = shaft.planes[p];
+    const BoxShaft::Plane& plane = shaft.planes[p];
     planes[p] = {plane.m > 0 ? plane.i : 3 + plane.i, plane.n > 0 ? plane.j : 3 + plane.j,
                  static_cast<float>(plane.m), static_cast<float>(plane.n),
                  rounded_up(plane.limit + 0x1p-20 * reach + 0x1p-120)};
   }
 }
 
-}  // namespace tenebra::tint
+}  // namespace tenebra::trees

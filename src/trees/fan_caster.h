@@ -4,10 +4,10 @@
 #include <span>
 
 #include <tenebra/simd_level.h>
-#include "ao/cast/ray_batch.h"
-#include "ao/cast/triangle_bvh.h"
+#include "trees/ray_batch.h"
+#include "trees/triangle_bvh.h"
 
-namespace tenebra::ao {
+namespace tenebra::trees {
 
 inline constexpr std::size_t fans_at_once = 4;
 
@@ -22,4 +22,4 @@ using ClosestFans = void (*)(const TriangleBvh& bvh, std::span<const RayBatch> r
 /// Code for one instruction set. Bits do not depend on it.
 ClosestFans closest_fans(SimdLevel level);
 
-}  // namespace tenebra::ao
+}  // namespace tenebra::trees

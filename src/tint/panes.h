@@ -11,7 +11,7 @@
 namespace tenebra::tint {
 
 /// The see-through triangles of a frame, numbered from 0 in the order of their ids.
-class Surfaces {
+class Panes {
 public:
   void reset(const SeeThroughSurfaces& surfaces, const TriangleView& triangles);
 

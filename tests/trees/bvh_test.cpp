@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "ao/cast/triangle_bvh.h"
 #include "support/samples.h"
 #include "support/seeded_random.h"
+#include "trees/triangle_bvh.h"
 
 namespace tenebra {
 namespace {
@@ -27,7 +27,7 @@ struct Triangles {
     positions.insert(positions.end(), {a, b, c});
     triangles.emplace_back(first, first + 1, first + 2);
   }
-  ao::TriangleBvh bvh() const { return ao::build_triangle_bvh(positions, triangles); }
+  trees::TriangleBvh bvh() const { return trees::build_triangle_bvh(positions, triangles); }
 };
 
 Triangles random_triangles(Random& random, int count, double size) {
@@ -42,7 +42,7 @@ Triangles random_triangles(Random& random, int count, double size) {
 
 /// t of the hit with one triangle in double; infinity: none. `margin`: how near to an edge, in barycentric
 /// coordinates, the ray passes.
-double hit_in_double(const Triangles& set, std::size_t id, const ao::CasterRay& ray, double& margin) {
+double hit_in_double(const Triangles& set, std::size_t id, const trees::CasterRay& ray, double& margin) {
   const glm::uvec3 index = set.triangles[id];
   const dvec3 a(set.positions[index.x]), b(set.positions[index.y]), c(set.positions[index.z]);
   const dvec3 o(ray.origin), d(ray.direction), n = cross(b - a, c - a);
@@ -60,10 +60,10 @@ TEST(TriangleBvh, FindsWhatBruteForceFinds) {
   int hits = 0;
   for (const int count : {1, 7, 8, 9, 64, 500, 3000}) {
     const Triangles set = random_triangles(random, count, count < 100 ? 1.0 : 0.2);
-    const ao::TriangleBvh bvh = set.bvh();
+    const trees::TriangleBvh bvh = set.bvh();
     ASSERT_EQ(bvh.triangles, static_cast<std::size_t>(count));
     for (int i = 0; i < 200; ++i) {
-      ao::CasterRay ray{vec3(random.in_cube(1.5)), vec3(random.direction())};
+      trees::CasterRay ray{vec3(random.in_cube(1.5)), vec3(random.direction())};
       if (i % 4 == 1) ray.to = static_cast<float>(random.in(0, 2));
       if (i % 4 == 2) ray.from = static_cast<float>(random.in(0, 1));
       if (i % 4 == 3) ray.skip = random.index(static_cast<std::uint32_t>(count));
@@ -76,14 +76,14 @@ TEST(TriangleBvh, FindsWhatBruteForceFinds) {
       if (closest_call < 1e-5) continue;
       for (const SimdLevel level : levels) {
         if (!simd_level_supported(level)) continue;
-        const ao::BvhKernels kernels = ao::bvh_kernels(level);
-        const ao::CasterHit hit = kernels.closest(bvh, ray);
+        const trees::BvhKernels kernels = trees::bvh_kernels(level);
+        const trees::CasterHit hit = kernels.closest(bvh, ray);
         EXPECT_EQ(kernels.any(bvh, ray), nearest < HUGE_VAL);
         if (nearest < HUGE_VAL) {
           EXPECT_NEAR(hit.distance, nearest, 1e-4) << count << " " << i;
         } else {
           EXPECT_EQ(hit.distance, infinity);
-          EXPECT_EQ(hit.triangle, ao::no_caster);
+          EXPECT_EQ(hit.triangle, trees::no_caster);
         }
       }
       hits += nearest < HUGE_VAL;
@@ -95,21 +95,23 @@ TEST(TriangleBvh, FindsWhatBruteForceFinds) {
 TEST(TriangleBvh, GivesTheSameBitsOnEveryInstructionSet) {
   Random random(2);
   const Triangles set = random_triangles(random, 2000, 0.3);
-  const ao::TriangleBvh bvh = set.bvh();
+  const trees::TriangleBvh bvh = set.bvh();
   for (int i = 0; i < 500; ++i) {
-    ao::RayBatch rays;
-    for (int k = 0; k < ao::batch_size; ++k) rays.set(k, vec3(random.in_cube(2)), vec3(random.direction()));
-    float expected[ao::batch_size];
-    std::fill(expected, expected + ao::batch_size, infinity);
-    ao::bvh_kernels(SimdLevel::scalar).closest_batch(bvh, rays, expected);
+    trees::RayBatch rays;
+    for (int k = 0; k < trees::batch_size; ++k)
+      rays.set(k, vec3(random.in_cube(2)), vec3(random.direction()));
+    float expected[trees::batch_size];
+    std::fill(expected, expected + trees::batch_size, infinity);
+    trees::bvh_kernels(SimdLevel::scalar).closest_batch(bvh, rays, expected);
     for (const SimdLevel level : levels) {
       if (!simd_level_supported(level)) continue;
-      float distance[ao::batch_size];
-      std::fill(distance, distance + ao::batch_size, infinity);
-      ao::bvh_kernels(level).closest_batch(bvh, rays, distance);
-      for (int k = 0; k < ao::batch_size; ++k) {
+      float distance[trees::batch_size];
+      std::fill(distance, distance + trees::batch_size, infinity);
+      trees::bvh_kernels(level).closest_batch(bvh, rays, distance);
+      for (int k = 0; k < trees::batch_size; ++k) {
         EXPECT_EQ(distance[k], expected[k]);
-        const ao::CasterHit hit = ao::bvh_kernels(level).closest(bvh, {rays.origin(k), rays.direction(k)});
+        const trees::CasterHit hit =
+            trees::bvh_kernels(level).closest(bvh, {rays.origin(k), rays.direction(k)});
         EXPECT_EQ(hit.distance, expected[k]);
       }
     }
@@ -130,10 +132,10 @@ TEST(TriangleBvh, LeavesNoGapBetweenNeighbours) {
       sphere.add(at(ring, sector), at(ring + 1, sector), at(ring + 1, sector + 1));
       sphere.add(at(ring, sector), at(ring + 1, sector + 1), at(ring, sector + 1));
     }
-  const ao::TriangleBvh bvh = sphere.bvh();
+  const trees::TriangleBvh bvh = sphere.bvh();
   Random random(3);
-  for (const ao::BvhKernels& kernels :
-       {ao::bvh_kernels(SimdLevel::scalar), ao::bvh_kernels(SimdLevel::automatic)}) {
+  for (const trees::BvhKernels& kernels :
+       {trees::bvh_kernels(SimdLevel::scalar), trees::bvh_kernels(SimdLevel::automatic)}) {
     for (int i = 0; i < 20000; ++i) {
       const vec3 origin(random.in_cube(0.5));
       const vec3 a = sphere.positions[random.index(static_cast<std::uint32_t>(sphere.positions.size()))];
@@ -155,29 +157,29 @@ TEST(TriangleBvh, LeavesOutWhatIsNoTriangle) {
   set.add({0, 0, 0}, {1, 1, 1}, {2, 2, 2});
   set.triangles.emplace_back(0, 1, 4000000000u);
   EXPECT_EQ(set.bvh().triangles, 0u);
-  EXPECT_EQ(ao::bvh_kernels(SimdLevel::automatic).closest(set.bvh(), {{0, 0, 1}, {0, 0, -1}}).distance,
+  EXPECT_EQ(trees::bvh_kernels(SimdLevel::automatic).closest(set.bvh(), {{0, 0, 1}, {0, 0, -1}}).distance,
             infinity);
   set.add({-1, -1, 0}, {1, -1, 0}, {0, 1, 0});
-  const ao::TriangleBvh bvh = set.bvh();
+  const trees::TriangleBvh bvh = set.bvh();
   EXPECT_EQ(bvh.triangles, 1u);
-  const ao::CasterHit hit = ao::bvh_kernels(SimdLevel::automatic).closest(bvh, {{0, 0, 2}, {0, 0, -1}});
+  const trees::CasterHit hit = trees::bvh_kernels(SimdLevel::automatic).closest(bvh, {{0, 0, 2}, {0, 0, -1}});
   EXPECT_EQ(hit.distance, 2.0f);
   EXPECT_EQ(hit.triangle, 6u);
 }
 
 TEST(TriangleBvh, SurvivesRaysThatAreNone) {
   Random random(4);
-  const ao::TriangleBvh bvh = random_triangles(random, 300, 0.5).bvh();
+  const trees::TriangleBvh bvh = random_triangles(random, 300, 0.5).bvh();
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (const float bad : {nan, infinity, -infinity}) {
     for (int k = 0; k < 6; ++k) {
-      ao::CasterRay ray{{0.1f, 0.2f, 0.3f}, {0.3f, 0.5f, -0.7f}};
+      trees::CasterRay ray{{0.1f, 0.2f, 0.3f}, {0.3f, 0.5f, -0.7f}};
       (k < 3 ? ray.origin[k] : ray.direction[k - 3]) = bad;
-      EXPECT_EQ(ao::bvh_kernels(SimdLevel::automatic).closest(bvh, ray).distance, infinity);
+      EXPECT_EQ(trees::bvh_kernels(SimdLevel::automatic).closest(bvh, ray).distance, infinity);
     }
   }
-  EXPECT_FALSE(ao::bvh_kernels(SimdLevel::automatic).any(bvh, {{0, 0, 0}, {0, 0, 0}}));
-  EXPECT_FALSE(ao::bvh_kernels(SimdLevel::automatic).any(bvh, {{0, 0, 0}, {0, 0, 1}, nan, nan}));
+  EXPECT_FALSE(trees::bvh_kernels(SimdLevel::automatic).any(bvh, {{0, 0, 0}, {0, 0, 0}}));
+  EXPECT_FALSE(trees::bvh_kernels(SimdLevel::automatic).any(bvh, {{0, 0, 0}, {0, 0, 1}, nan, nan}));
 }
 
 TEST(TriangleBvh, HoldsWhateverTheSpread) {
@@ -191,24 +193,25 @@ TEST(TriangleBvh, HoldsWhateverTheSpread) {
     shrinking.add({0, s, 0}, {s, s, 0}, {0, s, s});
     shrinking.add({0, 0, s}, {s, 0, s}, {0, s, s});
   }
-  EXPECT_EQ(ao::bvh_kernels(SimdLevel::automatic).closest(same.bvh(), {{0.2f, 0.2f, 1}, {0, 0, -1}}).triangle,
-            0u);
-  const ao::TriangleBvh bvh = shrinking.bvh();
+  EXPECT_EQ(
+      trees::bvh_kernels(SimdLevel::automatic).closest(same.bvh(), {{0.2f, 0.2f, 1}, {0, 0, -1}}).triangle,
+      0u);
+  const trees::TriangleBvh bvh = shrinking.bvh();
   EXPECT_GT(bvh.triangles, 3000u);
-  EXPECT_TRUE(ao::bvh_kernels(SimdLevel::automatic).any(bvh, {{0, 0, 0}, {1, 0.2f, 0.2f}}));
+  EXPECT_TRUE(trees::bvh_kernels(SimdLevel::automatic).any(bvh, {{0, 0, 0}, {1, 0.2f, 0.2f}}));
 }
 
 TEST(TriangleBvh, AgreesWithEmbree) {
   Random random(5);
   const Triangles set = random_triangles(random, 5000, 0.1);
-  const ao::TriangleBvh bvh = set.bvh();
+  const trees::TriangleBvh bvh = set.bvh();
   const testing::PeerTracer peer({set.positions, set.triangles, {}});
   int differ = 0, hits = 0;
   for (int i = 0; i < 20000; ++i) {
     const vec3 origin(random.in_cube(2)), direction(random.direction());
-    const ao::CasterHit hit = ao::bvh_kernels(SimdLevel::automatic).closest(bvh, {origin, direction});
+    const trees::CasterHit hit = trees::bvh_kernels(SimdLevel::automatic).closest(bvh, {origin, direction});
     differ += hit.triangle != peer.nearest(origin, direction);
-    hits += hit.triangle != ao::no_caster;
+    hits += hit.triangle != trees::no_caster;
   }
   EXPECT_GT(hits, 2000);
   EXPECT_LE(differ, 2);  // rays along an edge, within rounding

@@ -1,15 +1,15 @@
-#include "ao/cast/triangle_bvh.h"
+#include "trees/triangle_bvh.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
-#include "ao/cast/bvh_parts.h"
 #include "base/until_stopped.h"
 #include "parallel/parallel.h"
+#include "trees/bvh_parts.h"
 
-namespace tenebra::ao {
+namespace tenebra::trees {
 
 namespace {
 
@@ -40,8 +40,9 @@ struct Split {
 /// Once a stop is requested, whatever is in the making is left as it is and of no use.
 class Builder {
 public:
-  Builder(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles, const StopFlag* stop)
-      : positions_(positions), triangles_(triangles), stop_(stop) {
+  Builder(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles, BvhHolds holds,
+          const StopFlag* stop)
+      : positions_(positions), triangles_(triangles), holds_(holds), stop_(stop) {
     collect();
   }
   TriangleBvh build();
@@ -77,6 +78,7 @@ private:
 
   std::span<const glm::vec3> positions_;
   std::span<const glm::uvec3> triangles_;
+  BvhHolds holds_;
   const StopFlag* stop_;
   std::vector<Item> items_;
   float margin_ = 0;
@@ -87,7 +89,7 @@ void Builder::collect() {
   float largest_coordinate = 0;
   each(0, triangles_.size(), [&](std::size_t i) {
     math::Box<float> box;
-    if (!bvh_holds(positions_, triangles_[i], box)) return;
+    if (!bvh_holds(positions_, triangles_[i], holds_, box)) return;
     items_.push_back({box, 0.5f * box.low + 0.5f * box.high, static_cast<std::uint32_t>(i)});
     largest_coordinate = std::max(largest_coordinate, box.largest_coordinate());
   });
@@ -167,7 +169,7 @@ std::pair<Range, Range> Builder::divide(const Range& whole, int depth) {
 }
 
 std::uint32_t Builder::add_block(const Range& range, TriangleBvh& tree) const {
-  TriangleBlock block = empty_block();
+  BvhTriangles block = empty_block();
   for (std::uint32_t i = range.first; i < range.last; ++i)
     set_triangle(block, i - range.first, items_[i].triangle, positions_, triangles_);
   tree.blocks.push_back(block);
@@ -202,7 +204,7 @@ std::uint32_t append(const TriangleBvh& part, std::uint32_t root, TriangleBvh& t
   const auto moved = [&](std::uint32_t child) { return child + (child & bvh_leaf ? blocks : nodes); };
   for (BvhNode node : part.nodes) {
     for (int lane = 0; lane < bvh_width; ++lane)
-      if (node.plane[0][lane] != infinity) node.child[lane] = moved(node.child[lane]);
+      if (node.child[lane] != bvh_no_child) node.child[lane] = moved(node.child[lane]);
     tree.nodes.push_back(node);
   }
   tree.blocks.insert(tree.blocks.end(), part.blocks.begin(), part.blocks.end());
@@ -267,15 +269,44 @@ math::Box<float> TriangleBvh::box() const {
 }
 
 std::optional<TriangleBvh> build_triangle_bvh(std::span<const glm::vec3> positions,
-                                              std::span<const glm::uvec3> triangles, const StopFlag* stop) {
-  Builder builder(positions, triangles, stop);
+                                              std::span<const glm::uvec3> triangles, const StopFlag* stop,
+                                              BvhHolds holds) {
+  Builder builder(positions, triangles, holds, stop);
   TriangleBvh tree = builder.build();
   if (builder.stopped()) return {};
   return tree;
 }
 
 TriangleBvh build_triangle_bvh(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles) {
-  return Builder(positions, triangles, nullptr).build();
+  return Builder(positions, triangles, BvhHolds::with_area, nullptr).build();
 }
 
-}  // namespace tenebra::ao
+void refit_triangle_bvh(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
+                        TriangleBvh& bvh) {
+  std::vector<math::Box<float>> of_blocks(bvh.blocks.size());
+  parallel::parallel_ranges(bvh.blocks.size(), 256, [&](std::size_t first, std::size_t last) {
+    for (std::size_t b = first; b < last; ++b) {
+      BvhTriangles& block = bvh.blocks[b];
+      for (std::size_t lane = 0; lane < bvh_width && block.triangle[lane] != no_caster; ++lane) {
+        set_triangle(block, lane, block.triangle[lane], positions, triangles);
+        for (int k = 0; k < 3; ++k) of_blocks[b].add(positions[triangles[block.triangle[lane]][k]]);
+      }
+    }
+  });
+  math::Box<float> all;
+  for (const math::Box<float>& box : of_blocks) all.add(box);
+  const float margin = bvh_margin(all.largest_coordinate());
+  std::vector<math::Box<float>> of_nodes(bvh.nodes.size());
+  for (std::size_t n = bvh.nodes.size(); n-- > 0;) {  // children lie behind their node
+    BvhNode& node = bvh.nodes[n];
+    for (std::size_t lane = 0; lane < bvh_width; ++lane) {
+      const std::uint32_t child = node.child[lane];
+      if (child == bvh_no_child) continue;
+      const math::Box<float>& box = (child & bvh_leaf) != 0 ? of_blocks[child & ~bvh_leaf] : of_nodes[child];
+      set_child(node, lane, child, box, margin);
+      of_nodes[n].add(box);
+    }
+  }
+}
+
+}  // namespace tenebra::trees

@@ -1,4 +1,4 @@
-#include "tint/surfaces.h"
+#include "tint/panes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ bool same_color(std::span<const glm::vec4> colors, const glm::uvec3& t) {
 
 }  // namespace
 
-void Surfaces::reset(const SeeThroughSurfaces& surfaces, const TriangleView& triangles) {
+void Panes::reset(const SeeThroughSurfaces& surfaces, const TriangleView& triangles) {
   surfaces_ = surfaces;
   triangles_ = triangles;
   ids_.clear();
@@ -31,7 +31,7 @@ void Surfaces::reset(const SeeThroughSurfaces& surfaces, const TriangleView& tri
     if (surfaces.see_through[id] == 1) add(id);
 }
 
-void Surfaces::add(std::uint32_t id) {
+void Panes::add(std::uint32_t id) {
   const std::uint32_t material = surfaces_.materials[id];
   const Material& m = surfaces_.scene->materials[material];
   const glm::uvec3 t = triangles_.triangles[id];
@@ -45,7 +45,7 @@ void Surfaces::add(std::uint32_t id) {
                                                    white ? glm::vec4(1.0f) : surfaces_.colors[t.x]));
 }
 
-glm::vec3 Surfaces::transmittance(std::uint32_t number, const dvec3& at) const {
+glm::vec3 Panes::transmittance(std::uint32_t number, const dvec3& at) const {
   if (!varies(number)) return constant_[number];
   const std::uint32_t id = ids_[number];
   const glm::uvec3 t = triangles_.triangles[id];

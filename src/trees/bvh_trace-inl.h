@@ -1,21 +1,21 @@
 // One ray through the tree: eight boxes or eight triangles at once. Without fused operations, so that every
 // instruction set gives the same bits.
-#if defined(TENEBRA_AO_BVH_TRACE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TENEBRA_AO_BVH_TRACE_INL_H_
-#undef TENEBRA_AO_BVH_TRACE_INL_H_
+#if defined(TENEBRA_TREES_BVH_TRACE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENEBRA_TREES_BVH_TRACE_INL_H_
+#undef TENEBRA_TREES_BVH_TRACE_INL_H_
 #else
-#define TENEBRA_AO_BVH_TRACE_INL_H_
+#define TENEBRA_TREES_BVH_TRACE_INL_H_
 #endif
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
-#include "ao/cast/triangle_bvh.h"
 #include "simd/pack-inl.h"
+#include "trees/triangle_bvh.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tenebra::ao::HWY_NAMESPACE {
+namespace tenebra::trees::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
 constexpr float no_distance = std::numeric_limits<float>::infinity();
@@ -72,7 +72,7 @@ inline Shear shear_along(glm::vec3 d) {
 // Distances to the eight triangles, no_distance where there is no hit. In the plane, an edge's side is the
 // sign of a difference of two products: rounding may make it zero, never turn it over. Zero counts as inside,
 // so that neighbours leave no gap, not even at vertices.
-SIMD_INLINE Float8 meet_triangles(const TriangleBlock& block, const CasterRay& ray, const Shear& shear) {
+SIMD_INLINE Float8 meet_triangles(const BvhTriangles& block, const CasterRay& ray, const Shear& shear) {
   const Float8 to_x = broadcast<Float8>(shear.to_x), to_y = broadcast<Float8>(shear.to_y);
   Pack3<Float8> p[3];
   for (int k = 0; k < 3; ++k) {
@@ -118,7 +118,7 @@ CasterHit trace_ray(const TriangleBvh& bvh, CasterRay ray) {
     const Entry entry = stack[--size];
     if (entry.enter > slabs.to) continue;
     if (entry.child & bvh_leaf) {
-      const TriangleBlock& block = bvh.blocks[entry.child & ~bvh_leaf];
+      const BvhTriangles& block = bvh.blocks[entry.child & ~bvh_leaf];
       const Float8 t = meet_triangles(block, ray, shear);
       std::uint32_t met = bits(le(t, broadcast<Float8>(std::min(hit.distance, largest_distance))));
       if (met == 0) continue;
@@ -147,7 +147,7 @@ CasterHit trace_ray(const TriangleBvh& bvh, CasterRay ray) {
   return hit;
 }
 
-}  // namespace tenebra::ao::HWY_NAMESPACE
+}  // namespace tenebra::trees::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

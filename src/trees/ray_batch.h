@@ -3,7 +3,7 @@
 
 #include <glm/glm.hpp>
 
-namespace tenebra::ao {
+namespace tenebra::trees {
 
 inline constexpr int batch_size = 16;
 
@@ -22,4 +22,4 @@ struct alignas(64) RayBatch {
   glm::vec3 direction(int i) const { return {dx[i], dy[i], dz[i]}; }
 };
 
-}  // namespace tenebra::ao
+}  // namespace tenebra::trees

@@ -1,15 +1,15 @@
 // The caster's entries, compiled once per instruction set.
-#include "ao/cast/triangle_bvh.h"
+#include "trees/triangle_bvh.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "ao/cast/bvh_kernels.cpp"
+#define HWY_TARGET_INCLUDE "trees/bvh_kernels.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h
-#include "ao/cast/bvh_trace-inl.h"
 #include "simd/dispatch.h"
+#include "trees/bvh_trace-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tenebra::ao::HWY_NAMESPACE {
+namespace tenebra::trees::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
 namespace {
@@ -33,16 +33,16 @@ BvhKernels bvh_kernels() {
   return {closest, any, closest_batch};
 }
 
-}  // namespace tenebra::ao::HWY_NAMESPACE
+}  // namespace tenebra::trees::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 
-namespace tenebra::ao {
+namespace tenebra::trees {
 
 BvhKernels bvh_kernels(SimdLevel level) {
   return TENEBRA_DISPATCH(level, bvh_kernels)();
 }
 
-}  // namespace tenebra::ao
+}  // namespace tenebra::trees
 #endif

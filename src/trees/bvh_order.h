@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "ao/cast/triangle_bvh.h"
+#include "trees/triangle_bvh.h"
 
-namespace tenebra::ao {
+namespace tenebra::trees {
 
 struct BvhOrder {
   static constexpr std::uint8_t node = 0xff;
@@ -23,4 +23,4 @@ BvhOrder order_of(const TriangleBvh& bvh);
 std::optional<TriangleBvh> order_triangles(std::span<const glm::vec3> positions,
                                            std::span<const glm::uvec3> triangles, const BvhOrder& order);
 
-}  // namespace tenebra::ao
+}  // namespace tenebra::trees

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "ao/cast/triangle_bvh.h"
+#include "trees/triangle_bvh.h"
 
-namespace tenebra::ao {
+namespace tenebra::trees {
 
 /// Half of a box's surface, in double: squares of 1e18 stay in range.
 inline double half_area(const math::Box<float>& box) {
@@ -18,14 +18,17 @@ inline double half_area(const math::Box<float>& box) {
 }
 
 /// Whether a tree holds the triangle; then, in `box`, its box.
-inline bool bvh_holds(std::span<const glm::vec3> positions, const glm::uvec3& t, math::Box<float>& box) {
+inline bool bvh_holds(std::span<const glm::vec3> positions, const glm::uvec3& t, BvhHolds holds,
+                      math::Box<float>& box) {
   constexpr float largest_coordinate = 1e18f;
   if (std::max({t.x, t.y, t.z}) >= positions.size()) return false;
   const glm::vec3 a = positions[t.x], b = positions[t.y], c = positions[t.z];
   for (const glm::vec3& p : {a, b, c})
     for (int axis = 0; axis < 3; ++axis)
       if (!(std::abs(p[axis]) <= largest_coordinate)) return false;
-  if (glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a)) == glm::dvec3(0)) return false;
+  if (holds == BvhHolds::with_area &&
+      glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a)) == glm::dvec3(0))
+    return false;
   box = {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))};
   return true;
 }
@@ -47,16 +50,16 @@ inline void set_child(BvhNode& node, std::size_t lane, std::uint32_t child, cons
 
 /// An empty box stays empty, however wide the margin.
 inline void set_no_child(BvhNode& node, std::size_t lane) {
-  set_child(node, lane, bvh_leaf, {}, 0);
+  set_child(node, lane, bvh_no_child, {}, 0);
 }
 
-inline TriangleBlock empty_block() {
-  TriangleBlock block{};
+inline BvhTriangles empty_block() {
+  BvhTriangles block{};
   std::fill(std::begin(block.triangle), std::end(block.triangle), no_caster);
   return block;
 }
 
-inline void set_triangle(TriangleBlock& block, std::size_t lane, std::uint32_t triangle,
+inline void set_triangle(BvhTriangles& block, std::size_t lane, std::uint32_t triangle,
                          std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles) {
   block.triangle[lane] = triangle;
   for (int corner = 0; corner < 3; ++corner)
@@ -64,4 +67,4 @@ inline void set_triangle(TriangleBlock& block, std::size_t lane, std::uint32_t t
       block.corner[corner][axis][lane] = positions[triangles[triangle][corner]][axis];
 }
 
-}  // namespace tenebra::ao
+}  // namespace tenebra::trees
