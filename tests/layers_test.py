@@ -47,9 +47,11 @@ ROOMS = {
     "formats": ["", "gltf_check", "images", "obj", "aff", "gltf", "glb"],
     "shadow": ["decision", "rays", "cone_tree", "tiles", ""],
     "soft": ["memory", "light", "polygon", "groups", "shafts", "occluders", "clip", "silhouette", "bsp", "solve", "sample", ""],
-    "ao": ["objects", "cast", "cache", "field", "surface", "shade", "adaptive", ""],
+    "ao": ["objects", "cast", "cache", "receivers", "casters", "adaptive", "reference", "field", "surface", "presampled", ""],
 }
 APART = {("edits", "cutout"), ("tiles", "cone_tree"), ("silhouette", "clip"), ("bsp", "clip"), ("bsp", "silhouette"),
+         ("reference", "adaptive"), ("field", "adaptive"), ("surface", "adaptive"), ("presampled", "adaptive"),
+         ("field", "reference"), ("surface", "reference"), ("presampled", "reference"),
          ("aff", "obj"), ("gltf", "obj"), ("gltf", "aff"), ("glb", "obj"), ("glb", "aff"), ("glb", "gltf")}  # may not see each other
 
 # What may be named where: (pattern, what it is, folders, rooms or files that may).
@@ -67,7 +69,7 @@ CONTAINED = [
     (r"libdeflate", "libdeflate", {"io/png_writer.cpp", "io/png_structure.cpp"}),
     (r"\bWebP[A-Z]|webp/", "libwebp", {"formats/images/webp.cpp"}),
     (r"\bImGui|GLFW", "the window", set()),
-    (r"\brtc[A-Z]\w*\(|embree", "the ray caster", {"ao/cast/embree.h", "ao/cast/reference_rays.cpp"}),
+    (r"\brtc[A-Z]\w*\(|embree", "the ray caster", {"ao/reference/embree.h", "ao/reference/reference_rays.cpp"}),
 ]
 
 

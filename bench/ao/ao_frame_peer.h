@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "ao/shade/receiver_sets.h"
+#include "ao/receivers/receiver_sets.h"
 #include "bench/ao/ao_peer.h"
 #include "bench/common/bench_frame.h"
 

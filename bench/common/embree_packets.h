@@ -1,7 +1,7 @@
 // Embree's packets of rays by the type of the packet.
 #pragma once
 
-#include "ao/cast/embree.h"
+#include "ao/reference/embree.h"
 
 namespace tenebra::bench {
 

@@ -10,7 +10,7 @@
 
 #include <tenebra/simd_level.h>
 #include <tenebra/visible_points.h>
-#include "ao/cast/embree.h"
+#include "ao/reference/embree.h"
 
 namespace tenebra::bench {
 

@@ -2,7 +2,7 @@
 // asked, sums afterwards. In vector code, so that their time is Embree's own.
 #pragma once
 
-#include "ao/cast/embree.h"
+#include "ao/reference/embree.h"
 
 namespace tenebra::bench {
 

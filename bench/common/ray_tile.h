@@ -7,7 +7,7 @@
 
 #include <tenebra/hard_config.h>
 #include <tenebra/visible_points.h>
-#include "ao/cast/embree.h"
+#include "ao/reference/embree.h"
 
 namespace tenebra::bench {
 

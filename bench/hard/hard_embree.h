@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "ao/cast/embree.h"
+#include "ao/reference/embree.h"
 #include "bench/hard/hard_views.h"
 
 namespace tenebra::bench {

@@ -3,7 +3,7 @@
 
 #include <tenebra/ambient_occlusion.h>
 
-#include "ao/shade/occluders.h"
+#include "ao/presampled/field_occluders.h"
 #include "bench/ao/ao_contestants.h"
 #include "bench/trade/trade_needs.h"
 
@@ -18,7 +18,7 @@ struct AllFields {
 AllFields build_all_fields(const ao::SceneObjects& objects, const ao::FieldSettings& settings) {
   AllFields all;
   for (const ao::ObjectShape& shape : objects.shapes) {
-    if (shape.triangles.size() <= ao::Occluders::few_triangles || !(shape.radius > 0)) continue;
+    if (shape.triangles.size() <= ao::FieldOccluders::few_triangles || !(shape.radius > 0)) continue;
     const Object object{"", shape.positions, shape.triangles};
     const ObjectTree tree(object);
     if (const auto built = build_field(object, tree, settings)) {

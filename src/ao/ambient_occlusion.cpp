@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "ao/adaptive/adaptive_pass.h"
-#include "ao/shade/field_pass.h"
-#include "ao/shade/ray_pass.h"
-#include "ao/shade/see_through.h"
+#include "ao/casters/casters.h"
+#include "ao/casters/see_through.h"
+#include "ao/presampled/presampled_occlusion.h"
+#include "ao/reference/reference_occlusion.h"
 #include "base/fail.h"
 #include "base/stopwatch.h"
 #include "math/box.h"
@@ -79,36 +79,32 @@ struct AmbientOcclusion::State {
   bool found = false;
   double diagonal = 0;  ///< of the scene; 0: not needed yet
   double reach = 0;
-  std::uint64_t frame = 0;  ///< counts calls
-  ao::MemoryBudget budget;
-  ao::Occluders occluders{budget};
-  ao::Bodies bodies{budget};
-  ao::SeeThroughOccluders see_through;
-  ao::PointRays rays;
-  ao::AoKernels kernels;
-  std::vector<float> values;
-  ao::FieldRoom field_room;
-  ao::RayRoom ray_room;
+  ao::RayKernels kernels;
+  ao::Casters casters;
+  ao::SeeThroughCasters see_through;
   ao::AdaptiveOcclusion adaptive;
-  std::optional<ao::ReferenceRays> reference;  ///< of the last frame, if by rays
-  std::vector<std::string> noted;              ///< deforming meshes already named
-  bool noted_memory = false;
+  ao::PresampledOcclusion presampled{casters};
+  ao::ReferenceOcclusion reference;
+  ao::PointRays rays;              ///< of receivers, but for `adaptive`
+  std::vector<float> values;       ///< of receivers
+  std::vector<std::string> noted;  ///< deforming meshes already named
 
   AoStats stats;
   FrameTimings timings;
   std::vector<std::string> notes;
 
-  State() {
-    budget.set_drop([this] { return drop_oldest(); });
-  }
-  bool drop_oldest();
-  void note_memory(const AoConfig& config);
-  void find(const Scene& scene, const FrameGeometry& geometry, const AoConfig& config, const StopFlag* stop);
+  void find(const Scene& scene, const FrameGeometry& geometry, const StopFlag* stop);
+  void begin_frame(const Scene& scene, const FrameGeometry& geometry, const AoConfig& config,
+                   const StopFlag* stop);
   void note_deforming(const AoConfig& config);
-  Expected<void> run(const ao::AoFrame& frame, const AoConfig& config, std::span<float> out,
-                     const AoProgress& progress, const StopFlag* stop);
-  Expected<void> from_rays(const ao::ReceiverSet& set, const FrameGeometry& geometry, const StopFlag* stop);
   bool all_casters_stand(const FrameGeometry& geometry) const;
+  Expected<void> run_adaptive(const ao::AoFrame& frame, const AoConfig& config, std::span<float> out,
+                              const StopFlag* stop);
+  /// Openness of receivers, to `values`.
+  Expected<void> solve(const ao::ReceiverSet& set, ao::AoPart part, const ao::AoFrame& frame,
+                       const AoConfig& config, const AoProgress& progress, const StopFlag* stop);
+  Expected<void> run_at_receivers(const ao::AoFrame& frame, const AoConfig& config, std::span<float> out,
+                                  const AoProgress& progress, const StopFlag* stop);
 };
 
 AmbientOcclusion::AmbientOcclusion() : state_(std::make_unique<State>()) {}
@@ -126,55 +122,36 @@ const std::vector<std::string>& AmbientOcclusion::notes() const {
   return state_->notes;
 }
 
-/// Brings objects and everything that depends on them to this instant; not all of it if `stop` is requested.
-void AmbientOcclusion::State::find(const Scene& scene, const FrameGeometry& geometry, const AoConfig& config,
-                                   const StopFlag* stop) {
-  const bool kept = found && ao::move_objects(scene, geometry, objects);
-  if (!kept) {
-    found = false;
-    reference.reset();
-    objects = ao::find_objects(scene, geometry, stop);
-    occluders.reset(objects);
-    diagonal = 0;
-    if (stop_requested(stop)) return;
-    found = true;
-  }
+/// Brings the objects to this instant; not all of them if `stop` is requested.
+void AmbientOcclusion::State::find(const Scene& scene, const FrameGeometry& geometry, const StopFlag* stop) {
+  if (found && ao::move_objects(scene, geometry, objects)) return;
+  found = false;
+  diagonal = 0;
+  reference.drop();
+  objects = ao::find_objects(scene, geometry, stop);
+  casters.reset(objects);
+  presampled.reset(objects);
+  found = !stop_requested(stop);
+}
+
+/// Likewise everything that the configured method needs of the instant.
+void AmbientOcclusion::State::begin_frame(const Scene& scene, const FrameGeometry& geometry,
+                                          const AoConfig& config, const StopFlag* stop) {
+  find(scene, geometry, stop);
+  if (stop_requested(stop)) return;
   if (config.distance_m == 0 && diagonal == 0) diagonal = scene_diagonal(scene);
-  const double wanted = config.distance_m > 0 ? config.distance_m : diagonal / 20;
-  if (!kept || wanted != reach) bodies.reset(objects, wanted);
-  reach = wanted;
-  kernels = ao::ao_kernels(config.simd);
-  rays.begin_frame(objects, config.rays, reach, kernels);
-  ++frame;
-  occluders.begin_frame(objects, geometry, config, reach, frame, stop);
-  bodies.begin_frame(frame, config.cache);
-  constexpr std::size_t megabyte = std::size_t{1} << 20;
-  budget.begin_frame(static_cast<std::size_t>(config.memory_mb) * megabyte);
+  reach = config.distance_m > 0 ? config.distance_m : diagonal / 20;
+  kernels = ao::ray_kernels(config.simd);
   see_through.begin_frame(scene, geometry, stop);
   note_deforming(config);
-}
-
-/// Of one shape, samples are dropped before its field.
-bool AmbientOcclusion::State::drop_oldest() {
-  const auto samples = bodies.oldest(), field = occluders.fields().oldest();
-  if (samples && (!field || *samples <= *field)) {
-    bodies.drop_oldest();
-  } else if (field) {
-    occluders.drop_field(field->object);
-  }
-  return samples || field;
-}
-
-void AmbientOcclusion::State::note_memory(const AoConfig& config) {
-  if (noted_memory || !budget.refused()) return;
-  noted_memory = true;
-  notes.push_back(
-      fmt::format("A frame's fields and surface samples found no room within {} MB: rays are cast for bodies "
-                  "without room, which takes longer; --ao-memory gives more.",
-                  config.memory_mb));
+  if (config.mode != AoMode::adaptive) rays.begin_frame(objects, config.rays, reach, kernels);
+  if (config.mode != AoMode::rays)
+    casters.begin_frame(objects, geometry, {reach, config.deforming, config.cache}, kernels, stop);
+  if (config.mode == AoMode::field) presampled.begin_frame(config, reach, kernels, stop);
 }
 
 void AmbientOcclusion::State::note_deforming(const AoConfig& config) {
+  if (config.mode != AoMode::field && config.deforming) return;
   for (const std::string& name : objects.deforming_names) {
     if (std::find(noted.begin(), noted.end(), name) != noted.end()) continue;
     noted.push_back(name);
@@ -190,59 +167,54 @@ bool AmbientOcclusion::State::all_casters_stand(const FrameGeometry& geometry) c
                       [&](std::uint32_t id) { return geometry.casts_shadow[id] != 0; });
 }
 
-Expected<void> AmbientOcclusion::State::from_rays(const ao::ReceiverSet& set, const FrameGeometry& geometry,
-                                                  const StopFlag* stop) {
-  base::Stopwatch watch;
-  if (!reference || !all_casters_stand(geometry)) {
-    reference.reset();
-    auto made = ao::ReferenceRays::create(triangle_view(geometry), stop);
-    if (!made) return tl::unexpected(made.error());
-    reference = std::move(*made);
+Expected<void> AmbientOcclusion::State::run_adaptive(const ao::AoFrame& frame, const AoConfig& config,
+                                                     std::span<float> out, const StopFlag* stop) {
+  const auto error = adaptive.compute({frame, casters, see_through, reach, kernels},
+                                      ao::adaptive_settings(config.error_255), out, stats, stop);
+  if (!error) return tl::unexpected(error.error());
+  stats.error_255 = *error;
+  return {};
+}
+
+Expected<void> AmbientOcclusion::State::solve(const ao::ReceiverSet& set, ao::AoPart part,
+                                              const ao::AoFrame& frame, const AoConfig& config,
+                                              const AoProgress& progress, const StopFlag* stop) {
+  if (config.mode == AoMode::rays) {
+    base::Stopwatch watch;
+    auto begun = reference.begin_frame(frame.geometry, all_casters_stand(frame.geometry), stop);
+    if (!begun) return begun;
+    timings.ao_build_ms += watch.lap_ms();
+    stats.points = reference.compute(set, rays, values, stop);
+    stats.rays_cast = stats.points * static_cast<std::uint64_t>(rays.rays());
+  } else if (auto done = presampled.compute(set, part, rays, values, stats, timings, progress); !done) {
+    return done;
   }
-  timings.ao_build_ms += watch.lap_ms();
-  stats.points = ao::cast_receivers(set, rays, *reference, values, ray_room, stop);
-  stats.rays_cast = stats.points * static_cast<std::uint64_t>(rays.rays());
+  if (part != ao::AoPart::own && !see_through.empty())
+    see_through.darken(set, rays, kernels, values, stats.rays_cast, stop);
   return stop_requested(stop) ? Expected<void>(base::stopped()) : Expected<void>();
 }
 
 /// Occlusion by other bodies can be blurred, that of a body by itself cannot: with a downscale only the
 /// others' part is computed at a fraction of the pixels.
-Expected<void> AmbientOcclusion::State::run(const ao::AoFrame& frame, const AoConfig& config,
-                                            std::span<float> out, const AoProgress& progress,
-                                            const StopFlag* stop) {
-  const auto solve = [&](const ao::ReceiverSet& set, ao::AoPart part) {
-    Expected<void> done;
-    if (config.mode == AoMode::rays) {
-      done = from_rays(set, frame.geometry, stop);
-    } else {
-      done = ao::FieldPass{occluders, bodies, rays, kernels, stats, timings, field_room}.run(
-          set, part, values, progress, stop);
-    }
-    if (done && part != ao::AoPart::own && !see_through.empty())
-      see_through.darken(set, rays, kernels, values, stats, stop);
-    return done && stop_requested(stop) ? Expected<void>(base::stopped()) : done;
-  };
+Expected<void> AmbientOcclusion::State::run_at_receivers(const ao::AoFrame& frame, const AoConfig& config,
+                                                         std::span<float> out, const AoProgress& progress,
+                                                         const StopFlag* stop) {
   const auto length = static_cast<float>(reach);
-  if (config.mode == AoMode::adaptive) {
-    const auto error = adaptive.compute({frame, occluders, see_through, reach, kernels},
-                                        ao::adaptive_settings(config.error_255), out, stats, stop);
-    if (!error) return tl::unexpected(error.error());
-    stats.error_255 = *error;
-    return {};
-  }
   if (config.place == AoPlace::vertices) {
     const ao::VertexReceivers set(frame);
-    auto done = solve(set, ao::AoPart::all);
+    auto done = solve(set, ao::AoPart::all, frame, config, progress, stop);
     if (done) set.spread(values, out);
     return done;
   }
   const bool split = config.downscale > 1 && config.mode == AoMode::field;
   const ao::PixelReceivers set(frame, config.downscale, length);
-  if (auto done = solve(set, split ? ao::AoPart::others : ao::AoPart::all); !done) return done;
+  const ao::AoPart part = split ? ao::AoPart::others : ao::AoPart::all;
+  if (auto done = solve(set, part, frame, config, progress, stop); !done) return done;
   set.spread(values, out);
   if (!split) return {};
   const std::uint64_t points = stats.points;
-  if (auto done = solve(ao::PixelReceivers(frame, 1, length), ao::AoPart::own); !done) return done;
+  const ao::PixelReceivers all(frame, 1, length);
+  if (auto done = solve(all, ao::AoPart::own, frame, config, progress, stop); !done) return done;
   stats.points = points;
   parallel::parallel_ranges(out.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) out[i] *= values[i];
@@ -260,26 +232,21 @@ Expected<void> AmbientOcclusion::compute(const Scene& scene, const FrameGeometry
   s.timings = {};
   if (auto checked = check(config, seen, normals); !checked) return checked;
   out.assign(seen.triangles.size(), 1.0f);
-  if (config.mode != AoMode::rays) s.reference.reset();
+  if (config.mode != AoMode::rays) s.reference.drop();
   if (config.mode == AoMode::none) return {};
   const VisiblePoints& points = points::with_positions(seen, triangle_view(geometry), s.positions);
   base::Stopwatch watch;
-  s.find(scene, geometry, config, stop);
+  s.begin_frame(scene, geometry, config, stop);
   if (stop_requested(stop)) return base::stopped();
   const double found_ms = s.timings.ao_build_ms = watch.lap_ms();
 
-  if (auto done = s.run({geometry, points, normals, s.objects}, config, out, progress, stop); !done)
-    return done;
-  s.bodies.save_grown();
+  const ao::AoFrame frame{geometry, points, normals, s.objects};
+  auto done = config.mode == AoMode::adaptive ? s.run_adaptive(frame, config, out, stop)
+                                              : s.run_at_receivers(frame, config, out, progress, stop);
+  if (!done) return done;
   s.timings.ao_ms = watch.lap_ms() - (s.timings.ao_build_ms - found_ms);
-  s.stats.fields_built = s.occluders.fields().built();
-  s.stats.field_bytes = s.occluders.fields().bytes();
-  s.stats.sample_bytes = s.bodies.bytes();
-  s.stats.peak_bytes = s.budget.peak();
-  s.stats.cache_cells = s.bodies.known();
-  s.note_memory(config);
-  for (std::string& note : s.occluders.take_notes()) s.notes.push_back(std::move(note));
-  for (std::string& note : s.bodies.take_notes()) s.notes.push_back(std::move(note));
+  s.presampled.end_frame(s.stats, s.notes);
+  for (std::string& note : s.casters.take_notes()) s.notes.push_back(std::move(note));
   return {};
 }
 

@@ -18,7 +18,7 @@ namespace {
 using namespace testing;
 namespace fs = std::filesystem;
 
-const ao::AoKernels kernels = ao::ao_kernels(SimdLevel::automatic);
+const ao::RayKernels kernels = ao::ray_kernels(SimdLevel::automatic);
 constexpr double reach = 0.8;
 
 /// A floor under a plate with holes, and a ball of small triangles: all kinds of samples.

@@ -19,7 +19,7 @@ struct OwnBody : StandingBody {
   }
 };
 
-const ao::AoKernels own_kernels = ao::ao_kernels(SimdLevel::automatic);
+const ao::RayKernels own_kernels = ao::ray_kernels(SimdLevel::automatic);
 
 /// Asks and fills until nothing is missing, as a frame does.
 float filled(ao::SelfOcclusion& samples, const ao::SurfacePoint& point) {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "ao/cast/embree.h"
+#include "ao/reference/embree.h"
 #include "support/soup.h"
 
 namespace tenebra::testing {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "ao/cast/embree.h"
+#include "ao/reference/embree.h"
 #include "bench/ao/scenes/ao_scene_pattern.h"
 
 namespace tenebra::bench {

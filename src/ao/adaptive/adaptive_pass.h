@@ -35,10 +35,10 @@ AdaptiveSettings adaptive_settings(double error_255);
 /// The input of a frame's occlusion.
 struct AdaptiveScene {
   const AoFrame& frame;
-  Occluders& occluders;
-  const SeeThroughOccluders& see_through;
+  Casters& casters;
+  const SeeThroughCasters& see_through;
   double reach;
-  const AoKernels& kernels;
+  const RayKernels& kernels;
 };
 
 /// Lists and ray patterns are kept from frame to frame.

@@ -30,40 +30,38 @@ const RaySets& KeptRaySets::at(int rays, int round) {
   return sets_.emplace(std::pair(rays, round), make_ray_sets(rays, round)).first->second;
 }
 
-void NearTriangles::begin(const Occluders& occluders, const SeeThroughOccluders& see_through,
-                          const SceneObjects& objects, double reach, const AoKernels& kernels) {
-  occluders_ = &occluders;
+void NearTriangles::begin(const Casters& casters, const SeeThroughCasters& see_through, double reach,
+                          const RayKernels& kernels) {
+  casters_ = &casters;
   see_through_ = &see_through;
   kernels_ = kernels;
   reach_ = static_cast<float>(reach);
-  lift_ = surface_lift(largest_coordinate(objects.standing));
 }
 
 void NearTriangles::look(std::span<const Receiver> receivers, std::span<const RayPattern* const> patterns,
-                         std::span<const int> near, Openness* out, OccluderCounts& counts,
+                         std::span<const int> near, Openness* out, std::uint64_t& rays_cast,
                          const StopFlag* stop) {
   const std::size_t count = receivers.size();
   reached_.resize(near.size() * count);
   for (std::size_t n = 0; n < near.size(); ++n)
-    occluders_->reaches(near[n], receivers, reached_.data() + n * count, Occluders::Itself::counts);
+    casters_->reaches(near[n], receivers, Casters::Itself::counts, reached_.data() + n * count);
   for (std::size_t i = 0; i < count && !stop_requested(stop); ++i) {
     const Receiver& receiver = receivers[i];
     const RayPattern& pattern = *patterns[i];
     batches_.resize(pattern.batches.size());
     distances_.assign(pattern.batches.size() * trees::batch_size, reach_);
-    const glm::dvec3 size = glm::abs(receiver.position);
-    const double lift = std::max(lift_, surface_lift(std::max({size.x, size.y, size.z})));
-    const glm::dvec3 origin = receiver.position + lift * glm::dvec3(receiver.face);
+    const glm::dvec3 origin = casters_->start_of(receiver);
     const Frame frame = frame_around(receiver.normal);
     kernels_.fan.spread(pattern, {frame.x, frame.y, receiver.normal}, receiver.face, glm::vec3(origin),
                         batches_.data());
     for (std::size_t n = 0; n < near.size(); ++n) {
       if (reached_[n * count + i] != 0)
-        occluders_->meet_triangles(near[n], receiver, origin, batches_, distances_.data(), counts);
+        casters_->meet(near[n], receiver, origin, batches_, distances_.data(), rays_cast);
     }
     out[i] = openness(pattern.rays);
     if (!see_through_->empty())
-      out[i].open *= see_through_->left(origin, batches_, pattern.rays, reach_, kernels_, distances_, counts);
+      out[i].open *=
+          see_through_->left(origin, batches_, pattern.rays, reach_, kernels_, distances_, rays_cast);
   }
 }
 

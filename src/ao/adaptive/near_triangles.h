@@ -1,15 +1,12 @@
 // Rays of receivers through all triangles in their reach: their own body, other bodies, static and deforming
-// geometry. Of each ray the first hit counts. What moves is in one tree that is made for each frame or, if it
-// has too many triangles for that, in a tree of each object in its own space, which is kept.
+// geometry. Of each ray the first hit counts.
 #pragma once
 
 #include <map>
 #include <utility>
 
-#include "ao/shade/occluders.h"
-#include "ao/shade/point_rays.h"
-#include "ao/shade/receiver_sets.h"
-#include "ao/shade/see_through.h"
+#include "ao/casters/casters.h"
+#include "ao/casters/see_through.h"
 
 namespace tenebra::ao {
 
@@ -44,25 +41,24 @@ struct Openness {
 /// For one thread.
 class NearTriangles {
 public:
-  /// Keeps references to occluders and what is see-through until the next call.
-  void begin(const Occluders& occluders, const SeeThroughOccluders& see_through, const SceneObjects& objects,
-             double reach, const AoKernels& kernels);
+  /// Keeps references to casters and what is see-through until the next call.
+  void begin(const Casters& casters, const SeeThroughCasters& see_through, double reach,
+             const RayKernels& kernels);
 
-  /// out[i] is receiver i's. `near`: what Occluders::near() gives for a box around them, with trees built;
-  /// patterns: one for each receiver, of equal numbers of rays. Once `stop` is requested the others' are left
-  /// as they were.
+  /// out[i] is receiver i's. `near`: what Casters::near() gives for a box around them, with trees built;
+  /// patterns: one for each receiver, of equal numbers of rays. Adds to `rays_cast`. Once `stop` is requested
+  /// the others' are left as they were.
   void look(std::span<const Receiver> receivers, std::span<const RayPattern* const> patterns,
-            std::span<const int> near, Openness* out, OccluderCounts& counts, const StopFlag* stop);
+            std::span<const int> near, Openness* out, std::uint64_t& rays_cast, const StopFlag* stop);
 
 private:
   Openness openness(int rays) const;
 
-  const Occluders* occluders_ = nullptr;
-  const SeeThroughOccluders* see_through_ = nullptr;
-  AoKernels kernels_;
+  const Casters* casters_ = nullptr;
+  const SeeThroughCasters* see_through_ = nullptr;
+  RayKernels kernels_;
   float reach_ = 0;
-  float lift_ = 0;
-  std::vector<std::uint8_t> reached_;  ///< one per occluder and receiver
+  std::vector<std::uint8_t> reached_;  ///< one per caster and receiver
   std::vector<trees::RayBatch> batches_;
   std::vector<float> distances_;
 };

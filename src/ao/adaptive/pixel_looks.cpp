@@ -1,7 +1,6 @@
 #include "ao/adaptive/pixel_looks.h"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 
 #include "base/sort_unique.h"
@@ -14,16 +13,16 @@ PixelLooks::PixelLooks(const AdaptiveScene& scene, const PixelSurfaces& surfaces
     : scene_(scene), tiles_(surfaces.width, surfaces.height), stop_(stop), room_(room) {
   const auto count = static_cast<std::size_t>(tiles_.count());
   if (room.near.size() < count) room.near.resize(count);
-  room.counts.assign(count, {});
+  room.rays_cast.assign(count, 0);
   room.looks.assign(count, 0);
   room.workers.resize(std::max(room.workers.size(), static_cast<std::size_t>(thread_count())));
   for (LookRoom::Worker& worker : room.workers)
-    worker.triangles.begin(scene.occluders, scene.see_through, scene.frame.objects, scene.reach,
-                           scene.kernels);
+    worker.triangles.begin(scene.casters, scene.see_through, scene.reach, scene.kernels);
   find_near(surfaces);
 }
 
-/// Moving geometry is in one tree of its own where that is quickly built, else body by body.
+/// What moves is in one tree that is made for each frame or, where it has too many triangles for that, in a
+/// tree of each object in its own space, which is kept.
 void PixelLooks::find_near(const PixelSurfaces& surfaces) {
   const auto lists = std::span(room_.near).first(static_cast<std::size_t>(tiles_.count()));
   parallel::parallel_tasks(tiles_.count(), [&](int tile) {
@@ -34,21 +33,23 @@ void PixelLooks::find_near(const PixelSurfaces& surfaces) {
       const std::size_t i = surfaces.index(x, y);
       if (surfaces.pixels[i].there()) box.add(scene_.frame.points.positions[i]);
     });
-    if (!box.empty()) scene_.occluders.near(box, near);
+    if (!box.empty()) scene_.casters.near(box, near);
   });
   std::vector<int>& all = room_.all;
   all.clear();
   for (const std::vector<int>& near : lists) all.insert(all.end(), near.begin(), near.end());
   base::sort_unique(all);
-  if (!scene_.occluders.gather_moving(all)) return scene_.occluders.build_trees(all);
+  Casters& casters = scene_.casters;
+  if (!casters.gather(all)) return casters.build(all);
+  const int standing = casters.standing();
   for (std::vector<int>& near : lists) {
-    const bool stands = std::find(near.begin(), near.end(), Occluders::standing) != near.end();
+    const bool stands = std::find(near.begin(), near.end(), standing) != near.end();
     const bool moves = near.size() > (stands ? 1u : 0u);
     near.clear();
-    if (stands) near.push_back(Occluders::standing);
-    if (moves) near.push_back(Occluders::moving);
+    if (stands) near.push_back(standing);
+    if (moves) near.push_back(casters.gathered());
   }
-  scene_.occluders.build_trees(std::array{Occluders::standing});
+  if (std::binary_search(all.begin(), all.end(), standing)) casters.build({&standing, 1});
 }
 
 void PixelLooks::make_receivers(int step, const RaySets& sets, LookRoom::Worker& worker) const {
@@ -78,7 +79,7 @@ void PixelLooks::look(int step, const RaySets& sets, Choice choose, Take take) {
     make_receivers(step, sets, worker);
     worker.found.resize(worker.receivers.size());
     worker.triangles.look(worker.receivers, worker.patterns, room_.near[at], worker.found.data(),
-                          room_.counts[at], stop_);
+                          room_.rays_cast[at], stop_);
     if (stop_requested(stop_)) return;
     for (std::size_t k = 0; k < worker.receivers.size(); ++k)
       take(static_cast<std::uint32_t>(worker.receivers[k].index), worker.found[k]);
@@ -87,9 +88,7 @@ void PixelLooks::look(int step, const RaySets& sets, Choice choose, Take take) {
 }
 
 std::uint64_t PixelLooks::rays_cast() const {
-  std::uint64_t sum = 0;
-  for (const OccluderCounts& counts : room_.counts) sum += counts.rays_cast;
-  return sum;
+  return std::accumulate(room_.rays_cast.begin(), room_.rays_cast.end(), std::uint64_t{0});
 }
 
 std::uint64_t PixelLooks::looks() const {

@@ -36,11 +36,11 @@ struct LookRoom {
     std::vector<const RayPattern*> patterns;
     std::vector<Openness> found;
   };
-  std::vector<std::vector<int>> near;  ///< occluders, one list for each tile
-  std::vector<int> all;                ///< of all tiles
-  std::vector<OccluderCounts> counts;  ///< one for each tile
-  std::vector<std::uint64_t> looks;    ///< one for each tile
-  std::vector<Worker> workers;         ///< one for each thread
+  std::vector<std::vector<int>> near;    ///< casters, one list for each tile
+  std::vector<int> all;                  ///< of all tiles
+  std::vector<std::uint64_t> rays_cast;  ///< one for each tile
+  std::vector<std::uint64_t> looks;      ///< one for each tile
+  std::vector<Worker> workers;           ///< one for each thread
 };
 
 class PixelLooks {

@@ -7,7 +7,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "ao/shade/receiver_sets.h"
+#include "ao/receivers/receiver_sets.h"
 
 namespace tenebra::ao {
 

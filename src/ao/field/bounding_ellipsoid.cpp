@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "ao/field/displacement_field.h"
+#include "ao/objects/sphere.h"
 
 namespace tenebra::ao {
 

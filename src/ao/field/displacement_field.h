@@ -49,11 +49,6 @@ std::size_t field_memory(const FieldSettings& settings, const FieldShape& shape)
 /// Smallest useful table (0.33 MB): 24^2 x 24^2 chords.
 inline constexpr FieldSettings sparse_field{FieldLayout::chords, 576, 576, 8};
 
-struct Sphere {
-  glm::dvec3 centre{0.0};
-  double radius = 0;
-};
-
 /// What bounds a mesh in object space: a sphere (the paper's), or for chords one stretched along the axes
 /// to fit long objects better. Unit space is the object space in which it is the unit sphere.
 struct Ellipsoid {

@@ -8,6 +8,7 @@
 
 #include <tenebra/simd_level.h>
 #include "ao/field/displacement_field.h"
+#include "ao/objects/sphere.h"
 #include "trees/ray_batch.h"
 
 namespace tenebra::ao {

@@ -4,19 +4,9 @@
 
 #include "ao/field/field_file.h"
 #include "base/fail.h"
-#include "base/until_stopped.h"
 #include "parallel/parallel.h"
 
 namespace tenebra::ao {
-
-std::vector<glm::uvec3> casting_triangles(const ObjectShape& shape, const StopFlag* stop) {
-  std::vector<glm::uvec3> triangles;
-  triangles.reserve(shape.triangles.size());
-  base::each_until_stopped(0, shape.triangles.size(), stop, [&](std::size_t t) {
-    if (shape.casts[t]) triangles.push_back(shape.triangles[t]);
-  });
-  return triangles;
-}
 
 void ShapeFields::reset(const std::vector<ObjectShape>& shapes) {
   std::unordered_map<std::uint64_t, Kept> old;

@@ -17,9 +17,6 @@
 
 namespace tenebra::ao {
 
-/// The shape's triangles that cast; not all of them if `stop` is requested.
-std::vector<glm::uvec3> casting_triangles(const ObjectShape& shape, const StopFlag* stop = nullptr);
-
 class ShapeFields {
 public:
   explicit ShapeFields(MemoryBudget& budget) : budget_(&budget) {}

@@ -339,6 +339,15 @@ private:
 
 }  // namespace
 
+std::vector<glm::uvec3> casting_triangles(const ObjectShape& shape, const StopFlag* stop) {
+  std::vector<glm::uvec3> triangles;
+  triangles.reserve(shape.triangles.size());
+  base::each_until_stopped(0, shape.triangles.size(), stop, [&](std::size_t t) {
+    if (shape.casts[t]) triangles.push_back(shape.triangles[t]);
+  });
+  return triangles;
+}
+
 SceneObjects find_objects(const Scene& scene, const FrameGeometry& geometry, const StopFlag* stop) {
   SceneObjects objects;
   objects.motion = find_motion(scene);

@@ -27,6 +27,9 @@ struct ObjectShape {
   std::uint64_t hash = 0;             ///< of the geometry
 };
 
+/// The shape's triangles that cast; not all of them if `stop` is requested.
+std::vector<glm::uvec3> casting_triangles(const ObjectShape& shape, const StopFlag* stop = nullptr);
+
 struct MovingObject {
   std::string name;
   int node = -1;              ///< whose motion it shares

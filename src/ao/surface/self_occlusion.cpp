@@ -233,7 +233,7 @@ SelfOcclusion::Value& SelfOcclusion::value(std::uint32_t sample) {
   return sample < values_.size() ? values_[sample] : cell_values_[sample - values_.size()];
 }
 
-bool SelfOcclusion::fill(std::span<const std::uint64_t> missing, const AoKernels& kernels,
+bool SelfOcclusion::fill(std::span<const std::uint64_t> missing, const RayKernels& kernels,
                          const std::function<void(double)>& progress, const StopFlag* stop) {
   const auto sides = std::lower_bound(missing.begin(), missing.end(), is_side);
   const auto cells = std::lower_bound(sides, missing.end(), is_cell);
@@ -257,7 +257,7 @@ bool SelfOcclusion::fill(std::span<const std::uint64_t> missing, const AoKernels
   return true;
 }
 
-bool SelfOcclusion::cast(const std::vector<std::uint32_t>& samples, const AoKernels& kernels,
+bool SelfOcclusion::cast(const std::vector<std::uint32_t>& samples, const RayKernels& kernels,
                          const std::function<void(double)>& progress, const StopFlag* stop) {
   constexpr std::size_t step = 8192, grain = 32;
   const double wide = near_steps * layout_->spacing();

@@ -72,12 +72,12 @@ public:
   /// Adds what the point lacks to `missing`.
   Answer find(const SurfacePoint& point, std::vector<std::uint64_t>& missing) const;
   /// By rays.
-  float look(const SurfacePoint& point, const AoKernels& kernels) const {
+  float look(const SurfacePoint& point, const RayKernels& kernels) const {
     return rays_.look(point, kernels).occlusion;
   }
 
   /// Casts the rays of what is missing (ascending, unique). False if stopped.
-  bool fill(std::span<const std::uint64_t> missing, const AoKernels& kernels,
+  bool fill(std::span<const std::uint64_t> missing, const RayKernels& kernels,
             const std::function<void(double)>& progress, const StopFlag* stop);
 
   SurfaceSamples samples() const;
@@ -106,7 +106,7 @@ private:
   Answer find_large(const SurfacePoint& point, std::vector<std::uint64_t>& missing) const;
   Answer find_in_cell(const SurfacePoint& point, std::uint32_t cell,
                       std::vector<std::uint64_t>& missing) const;
-  bool cast(const std::vector<std::uint32_t>& samples, const AoKernels& kernels,
+  bool cast(const std::vector<std::uint32_t>& samples, const RayKernels& kernels,
             const std::function<void(double)>& progress, const StopFlag* stop);
 
   bool make_room(const StopFlag* stop);

@@ -117,14 +117,6 @@ std::vector<Corner> sorted_corners(const ObjectShape& shape, const StopFlag* sto
 
 }  // namespace
 
-vec3 face_normal(const ObjectShape& shape, std::size_t triangle) {
-  const glm::uvec3 t = shape.triangles[triangle];
-  const dvec3 a(shape.positions[t.x]);
-  const dvec3 n = glm::cross(dvec3(shape.positions[t.y]) - a, dvec3(shape.positions[t.z]) - a);
-  const double square = glm::dot(n, n);
-  return square > 0 ? vec3(n / std::sqrt(square)) : vec3(0.0f);
-}
-
 SurfaceLayout::SurfaceLayout(const ObjectShape& shape, double reach, const StopFlag* stop)
     : shape_(shape), spacing_(reach / wide_steps) {
   lay_grids(stop);

@@ -13,19 +13,9 @@
 #include <vector>
 
 #include <tenebra/stop_flag.h>
-#include "ao/objects/scene_objects.h"
+#include "ao/objects/surface_point.h"
 
 namespace tenebra::ao {
-
-/// A point of a shape's surface.
-struct SurfacePoint {
-  std::uint32_t triangle = 0;
-  float v = 0, w = 0;  ///< barycentric weights of the second and third corner
-  bool front = true;   ///< seen from where the triangle runs counter-clockwise
-};
-
-/// Unit; zero without an area.
-glm::vec3 face_normal(const ObjectShape& shape, std::size_t triangle);
 
 /// Three samples around a point and their weights, which add up to 1.
 struct SampleTriple {

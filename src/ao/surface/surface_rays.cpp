@@ -29,17 +29,6 @@ RayPattern grazing_pattern() {
 
 }  // namespace
 
-double largest_coordinate(const ObjectShape& shape) {
-  float largest = 0;
-  for (const vec3& p : shape.positions)
-    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  return largest;
-}
-
-float surface_lift(double largest_coordinate) {
-  return static_cast<float>(4 * 1.7320508 * 0x1p-24 * largest_coordinate);
-}
-
 SurfaceRays::SurfaceRays(const ObjectShape& shape, const trees::TriangleBvh& casters, double reach)
     : shape_(shape),
       casters_(casters),
@@ -48,7 +37,7 @@ SurfaceRays::SurfaceRays(const ObjectShape& shape, const trees::TriangleBvh& cas
       pattern_(make_ray_pattern(rays)),
       grazing_(grazing_pattern()) {}
 
-SurfaceRays::Seen SurfaceRays::look(const SurfacePoint& point, const AoKernels& kernels) const {
+SurfaceRays::Seen SurfaceRays::look(const SurfacePoint& point, const RayKernels& kernels) const {
   constexpr int batches = rays / trees::batch_size;
   const glm::uvec3 t = shape_.triangles[point.triangle];
   vec3 face = face_normal(shape_, point.triangle);

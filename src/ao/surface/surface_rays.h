@@ -1,16 +1,11 @@
 // Where rays from a point of a body's surface meet the body itself.
 #pragma once
 
-#include "ao/field/ao_kernels.h"
+#include "ao/cast/ray_kernels.h"
 #include "ao/surface/surface_layout.h"
 #include "trees/triangle_bvh.h"
 
 namespace tenebra::ao {
-
-/// How far off the surface rays start: beyond the rounding to float of the point, and of the corners of two
-/// triangles that touch (each at most sqrt(3)/2 ulp of its largest coordinate; as much again for the sums).
-float surface_lift(double largest_coordinate);
-double largest_coordinate(const ObjectShape& shape);
 
 class SurfaceRays {
 public:
@@ -24,7 +19,7 @@ public:
     float nearest = 0;    ///< distance of what is hit first, by grazing rays, too; at most the reach
     bool buried = false;  ///< most rays see the back of something
   };
-  Seen look(const SurfacePoint& point, const AoKernels& kernels) const;
+  Seen look(const SurfacePoint& point, const RayKernels& kernels) const;
 
 private:
   const ObjectShape& shape_;

@@ -2,7 +2,7 @@
 // the texture's alpha is below the cutoff.
 #include <gtest/gtest.h>
 
-#include "ao/cast/embree.h"
+#include "ao/reference/embree.h"
 #include "shadow/mask_case.h"
 #include "stage/cutout/cards.h"
 #include "stage/cutout/cutout.h"

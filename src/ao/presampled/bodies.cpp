@@ -1,4 +1,4 @@
-#include "ao/shade/bodies.h"
+#include "ao/presampled/bodies.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ void Bodies::begin_frame(std::uint64_t frame, const std::filesystem::path& cache
 }
 
 /// The number of the object's body; a new one has no samples yet. -1: a stop was requested.
-int Bodies::body_of(std::int32_t object, Occluders& occluders) {
+int Bodies::body_of(std::int32_t object, Casters& casters) {
   constexpr double alike = 1e-3;
   int& number = at_[index(object)];
   if (number >= 0) return number;
@@ -46,22 +46,21 @@ int Bodies::body_of(std::int32_t object, Occluders& occluders) {
   }
   const ObjectShape& geometry =
       shape < 0 ? objects_->standing : objects_->shapes[static_cast<std::size_t>(shape)];
-  const trees::TriangleBvh* casters = occluders.casters(shape);
-  if (casters == nullptr) return -1;
+  const trees::TriangleBvh* tree = shape < 0 ? casters.standing_tree() : casters.shape_tree(shape);
+  if (tree == nullptr) return -1;
   Body body;  // added once it is whole: memory may run out before
   body.shape = shape;
   body.made = frame_;
   body.key = sample_key(geometry, reach);
-  body.samples =
-      std::make_unique<SelfOcclusion>(geometry, *casters, reach, SelfOcclusion::most_cells, budget_);
+  body.samples = std::make_unique<SelfOcclusion>(geometry, *tree, reach, SelfOcclusion::most_cells, budget_);
   bodies_.push_back(std::move(body));
   return number = static_cast<int>(bodies_.size()) - 1;
 }
 
-void Bodies::make(std::span<const int> objects, Occluders& occluders, const StopFlag* stop) {
+void Bodies::make(std::span<const int> objects, Casters& casters, const StopFlag* stop) {
   std::vector<int> chosen;
   for (const int object : objects) {
-    const int body = body_of(object, occluders);
+    const int body = body_of(object, casters);
     if (body < 0) return;
     chosen.push_back(body);
   }
@@ -120,7 +119,7 @@ void Bodies::save_all(const std::function<bool(const Body&)>& chosen) {
     if (body.samples->known() > body.saved && chosen(body)) save(body);
 }
 
-Expected<void> Bodies::fill(std::span<const MissingSample> missing, const AoKernels& kernels,
+Expected<void> Bodies::fill(std::span<const MissingSample> missing, const RayKernels& kernels,
                             const AoProgress& progress, const StopFlag* stop) {
   for (std::size_t first = 0, last = 0; first < missing.size(); first = last) {
     std::vector<std::uint64_t> of_body;

@@ -1,4 +1,4 @@
-#include "ao/shade/field_pass.h"
+#include "ao/presampled/field_pass.h"
 
 #include <algorithm>
 #include <numeric>
@@ -40,7 +40,7 @@ Expected<void> FieldPass::supply(std::span<const GroupReport> reports, const AoP
   if (auto filled = bodies.fill(samples, kernels, progress, stop); !filled) return filled;
   stats.rays_cast += (bodies.filled() - before) * SurfaceRays::rays;
   base::sort_unique(without_samples);
-  bodies.make(without_samples, occluders, stop);
+  bodies.make(without_samples, casters, stop);
   if (stop_requested(stop)) return base::stopped();
   base::sort_unique(missing);
   return occluders.build(missing, progress);
@@ -88,8 +88,8 @@ Expected<void> FieldPass::run(const ReceiverSet& set, AoPart part, std::vector<f
     }
     timings.ao_build_ms += watch.lap_ms();
   }
-  stats.objects += static_cast<std::uint64_t>(
-      std::count_if(room.reached.begin(), room.reached.end(), [](int occluder) { return occluder >= 0; }));
+  stats.objects += static_cast<std::uint64_t>(std::count_if(
+      room.reached.begin(), room.reached.end(), [&](int occluder) { return casters.is_object(occluder); }));
   return {};
 }
 

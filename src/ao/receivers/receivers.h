@@ -7,8 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "ao/objects/scene_objects.h"
-#include "ao/surface/surface_layout.h"
+#include "ao/objects/surface_point.h"
 
 namespace tenebra::ao {
 

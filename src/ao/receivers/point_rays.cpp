@@ -1,10 +1,10 @@
-#include "ao/shade/point_rays.h"
+#include "ao/receivers/point_rays.h"
 
 #include <algorithm>
 
 namespace tenebra::ao {
 
-void PointRays::begin_frame(const SceneObjects& objects, int rays, double reach, const AoKernels& kernels) {
+void PointRays::begin_frame(const SceneObjects& objects, int rays, double reach, const RayKernels& kernels) {
   objects_ = &objects;
   if (pattern_.rays != rays) pattern_ = make_ray_pattern(rays);
   reach_ = reach;

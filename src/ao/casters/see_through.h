@@ -8,29 +8,29 @@
 #include <span>
 #include <vector>
 
-#include <tenebra/ao_config.h>
 #include <tenebra/scene.h>
 #include <tenebra/stop_flag.h>
-#include "ao/shade/occluders.h"
-#include "ao/shade/point_rays.h"
-#include "ao/shade/receiver_sets.h"
+#include "ao/cast/ray_kernels.h"
+#include "ao/receivers/point_rays.h"
+#include "ao/receivers/receiver_sets.h"
+#include "math/box.h"
 
 namespace tenebra::ao {
 
-class SeeThroughOccluders {
+class SeeThroughCasters {
 public:
   /// The instant of `geometry`. Of no use if `stop` was requested.
   void begin_frame(const Scene& scene, const FrameGeometry& geometry, const StopFlag* stop);
   bool empty() const { return layers_.empty(); }
 
   /// Multiplies the values of receivers by the share of their light that passes.
-  void darken(const ReceiverSet& set, const PointRays& rays, const AoKernels& kernels,
-              std::span<float> values, AoStats& stats, const StopFlag* stop) const;
+  void darken(const ReceiverSet& set, const PointRays& rays, const RayKernels& kernels,
+              std::span<float> values, std::uint64_t& rays_cast, const StopFlag* stop) const;
 
   /// The share of a point's light that passes, 0..1, by its rays: `count` of them, in batches. Overwrites
   /// `distances`, one for each.
   float left(const glm::dvec3& point, std::span<const trees::RayBatch> rays, int count, float reach,
-             const AoKernels& kernels, std::span<float> distances, OccluderCounts& counts) const;
+             const RayKernels& kernels, std::span<float> distances, std::uint64_t& rays_cast) const;
 
 private:
   static constexpr int opacity_steps = 64;  ///< 1 - T is rounded to one of these

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <tenebra/frame_timings.h>
-#include "ao/shade/group_shader.h"
+#include "ao/presampled/group_shader.h"
 
 namespace tenebra::ao {
 
@@ -19,10 +19,11 @@ struct FieldRoom {
 
 /// What a pass works on, and what it adds to.
 struct FieldPass {
-  Occluders& occluders;
+  Casters& casters;
+  FieldOccluders& occluders;
   Bodies& bodies;
   const PointRays& rays;
-  AoKernels kernels;
+  RayKernels kernels;
   AoStats& stats;
   FrameTimings& timings;
   FieldRoom& room;

@@ -1,16 +1,15 @@
 // The rays of a frame's receivers, and what their hits add up to.
 #pragma once
 
-#include "ao/field/ao_kernels.h"
-#include "ao/shade/receivers.h"
-#include "ao/surface/surface_rays.h"
+#include "ao/cast/ray_kernels.h"
+#include "ao/receivers/receivers.h"
 
 namespace tenebra::ao {
 
 class PointRays {
 public:
   /// `reach`: metres at which nothing occludes any more. Keeps a reference to `objects` until the next call.
-  void begin_frame(const SceneObjects& objects, int rays, double reach, const AoKernels& kernels);
+  void begin_frame(const SceneObjects& objects, int rays, double reach, const RayKernels& kernels);
 
   float reach() const { return static_cast<float>(reach_); }
   std::size_t batches() const { return pattern_.batches.size(); }  ///< per receiver
@@ -23,7 +22,7 @@ public:
 private:
   const SceneObjects* objects_ = nullptr;
   RayPattern pattern_;
-  AoKernels kernels_;
+  RayKernels kernels_;
   double reach_ = 0;
   float lift_ = 0;
 };

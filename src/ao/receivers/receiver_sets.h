@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <tenebra/visible_points.h>
-#include "ao/shade/receivers.h"
+#include "ao/receivers/receivers.h"
 
 namespace tenebra::ao {
 

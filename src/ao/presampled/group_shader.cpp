@@ -1,4 +1,4 @@
-#include "ao/shade/group_shader.h"
+#include "ao/presampled/group_shader.h"
 
 #include <algorithm>
 
@@ -55,7 +55,7 @@ void GroupShader::find_own(GroupReport& report) {
 void GroupShader::find_near(GroupReport& report) {
   math::Box<double> box;
   for (const Receiver& receiver : receivers_) box.add(receiver.position);
-  occluders_->near(box, near_);
+  occluders_->casters().near(box, near_);
   const std::size_t count = receivers_.size();
   reached_.resize(near_.size() * count);
   std::size_t kept = 0;

@@ -1,11 +1,11 @@
-#include "ao/cast/reference_rays.h"
+#include "ao/reference/reference_rays.h"
 
 #include "base/fail.h"
 
 #ifdef TENEBRA_EMBREE
 #include <cstring>
 
-#include "ao/cast/embree.h"
+#include "ao/reference/embree.h"
 #include "base/until_stopped.h"
 
 namespace tenebra::ao {

@@ -1,4 +1,4 @@
-#include "ao/shade/receiver_sets.h"
+#include "ao/receivers/receiver_sets.h"
 
 #include <algorithm>
 #include <cmath>

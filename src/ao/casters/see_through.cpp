@@ -1,4 +1,4 @@
-#include "ao/shade/see_through.h"
+#include "ao/casters/see_through.h"
 
 #include <cmath>
 #include <numeric>
@@ -17,8 +17,7 @@ bool apart(const math::Box<double>& a, const math::Box<double>& b, double reach)
 
 }  // namespace
 
-void SeeThroughOccluders::begin_frame(const Scene& scene, const FrameGeometry& geometry,
-                                      const StopFlag* stop) {
+void SeeThroughCasters::begin_frame(const Scene& scene, const FrameGeometry& geometry, const StopFlag* stop) {
   layers_.clear();
   if (geometry.see_through.empty()) return;
   std::vector<int> steps;  // of each material
@@ -37,8 +36,8 @@ void SeeThroughOccluders::begin_frame(const Scene& scene, const FrameGeometry& g
     add_layer(step, of_step[static_cast<std::size_t>(step)], geometry, stop);
 }
 
-void SeeThroughOccluders::add_layer(int step, const std::vector<glm::uvec3>& triangles,
-                                    const FrameGeometry& geometry, const StopFlag* stop) {
+void SeeThroughCasters::add_layer(int step, const std::vector<glm::uvec3>& triangles,
+                                  const FrameGeometry& geometry, const StopFlag* stop) {
   if (triangles.empty()) return;
   auto tree = trees::build_triangle_bvh(geometry.positions, triangles, stop);
   if (!tree) return;
@@ -49,8 +48,9 @@ void SeeThroughOccluders::add_layer(int step, const std::vector<glm::uvec3>& tri
   layer.triangles = std::move(*tree);
 }
 
-void SeeThroughOccluders::darken(const ReceiverSet& set, const PointRays& rays, const AoKernels& kernels,
-                                 std::span<float> values, AoStats& stats, const StopFlag* stop) const {
+void SeeThroughCasters::darken(const ReceiverSet& set, const PointRays& rays, const RayKernels& kernels,
+                               std::span<float> values, std::uint64_t& rays_cast,
+                               const StopFlag* stop) const {
   struct Scratch {
     std::vector<Receiver> receivers;
     std::vector<trees::RayBatch> batches;
@@ -76,12 +76,12 @@ void SeeThroughOccluders::darken(const ReceiverSet& set, const PointRays& rays, 
       }
     }
   });
-  stats.rays_cast += std::accumulate(cast.begin(), cast.end(), std::uint64_t{0});
+  rays_cast += std::accumulate(cast.begin(), cast.end(), std::uint64_t{0});
 }
 
-float SeeThroughOccluders::left(const glm::dvec3& point, std::span<const trees::RayBatch> rays, int count,
-                                float reach, const AoKernels& kernels, std::span<float> distances,
-                                OccluderCounts& counts) const {
+float SeeThroughCasters::left(const glm::dvec3& point, std::span<const trees::RayBatch> rays, int count,
+                              float reach, const RayKernels& kernels, std::span<float> distances,
+                              std::uint64_t& rays_cast) const {
   math::Box<double> box;
   box.add(point);
   float open = 1;
@@ -91,7 +91,7 @@ float SeeThroughOccluders::left(const glm::dvec3& point, std::span<const trees::
     kernels.cast(layer.triangles, rays, distances.data(), nullptr);
     const float hidden = kernels.fan.fall_off(distances.data(), static_cast<int>(rays.size()), reach);
     open *= 1 - layer.opacity * std::clamp(hidden / static_cast<float>(count), 0.0f, 1.0f);
-    counts.rays_cast += rays.size() * trees::batch_size;
+    rays_cast += rays.size() * trees::batch_size;
   }
   return open;
 }

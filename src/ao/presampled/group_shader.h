@@ -2,13 +2,14 @@
 // named, to be made before the group is shaded again.
 //
 // A point is hidden by its own body (sampled on the surface once, self_occlusion.h) and by the rest, ray by
-// ray: moving objects through their fields, static and deforming geometry by cast rays (occluders.h). The two
-// are taken as independent: the openness is (1 - own) (1 - others).
+// ray: moving objects through their fields, static and deforming geometry by cast rays (field_occluders.h).
+// The two are taken as independent: the openness is (1 - own) (1 - others).
 #pragma once
 
-#include "ao/shade/bodies.h"
-#include "ao/shade/point_rays.h"
-#include "ao/shade/receiver_sets.h"
+#include "ao/presampled/bodies.h"
+#include "ao/presampled/field_occluders.h"
+#include "ao/receivers/point_rays.h"
+#include "ao/receivers/receiver_sets.h"
 
 namespace tenebra::ao {
 
@@ -40,8 +41,8 @@ struct GroupReport {
 class GroupShader {
 public:
   /// Keeps references to all but the last until the next call.
-  void begin(const Occluders& occluders, const Bodies& bodies, const PointRays& rays,
-             const AoKernels& kernels) {
+  void begin(const FieldOccluders& occluders, const Bodies& bodies, const PointRays& rays,
+             const RayKernels& kernels) {
     occluders_ = &occluders, bodies_ = &bodies, rays_ = &rays;
     kernels_ = kernels;
   }
@@ -55,10 +56,10 @@ private:
   void cast_others(GroupReport& report);
   void meet_near(std::span<const std::size_t> asked, GroupReport& report);
 
-  const Occluders* occluders_ = nullptr;
+  const FieldOccluders* occluders_ = nullptr;
   const Bodies* bodies_ = nullptr;
   const PointRays* rays_ = nullptr;
-  AoKernels kernels_;
+  RayKernels kernels_;
   std::vector<Receiver> receivers_;
   std::vector<float> own_, others_;  ///< hidden shares, one per receiver
   std::vector<std::size_t> mixed_;   ///< receivers whose own body is met by cast rays

@@ -10,7 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "ao/shade/occluders.h"
+#include <tenebra/ao_config.h>
+#include <tenebra/expected.h>
+
+#include "ao/casters/casters.h"
 #include "ao/surface/sample_file.h"
 #include "ao/surface/self_occlusion.h"
 
@@ -50,11 +53,11 @@ public:
 
   /// Makes the bodies of `objects` (ascending, unique): with samples, those on disk among them, or, without
   /// room, answered by rays. Some of them, if `stop` is requested.
-  void make(std::span<const int> objects, Occluders& occluders, const StopFlag* stop);
+  void make(std::span<const int> objects, Casters& casters, const StopFlag* stop);
   /// A body is needed in this frame.
   void use(int number) { bodies_[static_cast<std::size_t>(number)].used = frame_; }
   /// Casts the rays of what is missing (ascending, unique). Fails with "stopped".
-  Expected<void> fill(std::span<const MissingSample> missing, const AoKernels& kernels,
+  Expected<void> fill(std::span<const MissingSample> missing, const RayKernels& kernels,
                       const AoProgress& progress, const StopFlag* stop);
   /// Writes those of which much is new to disk: a body that is there for one frame alone leaves no file, and
   /// one that is seen little by little is not written again for each frame.
@@ -81,7 +84,7 @@ private:
   std::size_t index(std::int32_t object) const {
     return object == TriangleOwner::standing ? objects_->objects.size() : static_cast<std::size_t>(object);
   }
-  int body_of(std::int32_t object, Occluders& occluders);
+  int body_of(std::int32_t object, Casters& casters);
   void load(std::span<const int> bodies);
   void save(Body& body);
   void save_all(const std::function<bool(const Body&)>& chosen);

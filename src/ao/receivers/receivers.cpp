@@ -1,4 +1,4 @@
-#include "ao/shade/receivers.h"
+#include "ao/receivers/receivers.h"
 
 #include <cmath>
 
