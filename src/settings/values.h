@@ -7,18 +7,10 @@
 
 #include <tenebra/expected.h>
 #include <tenebra/simd_level.h>
-<<<<<<<< HEAD:viewer/options/option_values.h
-#include "settings/values.h"
-========
 #include "settings/text_values.h"
->>>>>>>> a4e754a (Settings stand in one table):src/settings/values.h
 
 namespace tenebra::settings {
 
-<<<<<<<< HEAD:viewer/options/option_values.h
-using settings::largest_side_px;
-using settings::Size;
-========
 struct Size {
   int width = 0;
   int height = 0;
@@ -26,7 +18,6 @@ struct Size {
   bool operator==(const Size&) const = default;
 };
 inline constexpr int largest_side_px = 16384;
->>>>>>>> a4e754a (Settings stand in one table):src/settings/values.h
 
 /// Frames first, first + step, ... up to and with `last`; without `last`: to the end of the animation.
 struct FrameRange {
