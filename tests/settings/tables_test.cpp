@@ -1,6 +1,7 @@
 // The tables of settings: what every row promises, whoever reads it.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -10,31 +11,32 @@ namespace tenebra::settings {
 namespace {
 
 /// A value that is not the default, as text, for settings whose texts no rule makes.
-const std::map<std::string_view, std::string> samples{{"light", "2"},
-                                                      {"exposure", "1.5"},
-                                                      {"simd", "scalar"},
-                                                      {"light-size", "0.5x0.25"},
-                                                      {"light-facing", "1,2.5,-3"},
-                                                      {"soft-memory", "300"},
-                                                      {"ao-distance", "1.5"},
-                                                      {"ao-directions", "64"},
-                                                      {"ao-cache", "none"},
-                                                      {"camera", "near"},
-                                                      {"eye", "1,2,3"},
-                                                      {"look-at", "4,5,6"},
-                                                      {"up", "0,0,1"},
-                                                      {"fov", "50"},
-                                                      {"size", "320x240"},
-                                                      {"scene", "second"},
-                                                      {"no-cast", "glass"},
-                                                      {"texture-path", "."},
-                                                      {"environment", "sky.hdr"},
-                                                      {"set-light", "0 intensity=2"},
-                                                      {"add-light", "point"},
-                                                      {"set-material", "0 roughness=0.5"},
-                                                      {"set-node", "1 visible=0"},
-                                                      {"time", "1.5"},
-                                                      {"clip", "walk"}};
+const std::map<std::string_view, std::string> samples{
+    {"light", "2"},
+    {"exposure", "1.5"},
+    {"simd", "scalar"},
+    {"light-size", "0.5x0.25"},
+    {"light-facing", "1,2.5,-3"},
+    {"soft-memory", "300"},
+    {"ao-distance", "1.5"},
+    {"ao-directions", "64"},
+    {"ao-cache", "none"},
+    {"camera", "near"},
+    {"eye", "1,2,3"},
+    {"look-at", "4,5,6"},
+    {"up", "0,0,1"},
+    {"fov", "50"},
+    {"size", "320x240"},
+    {"scene", "second"},
+    {"no-cast", "glass"},
+    {"texture-path", "."},
+    {"environment", "sky.hdr"},
+    {"set-light", "0 intensity=2"},
+    {"add-light", "point position=0,0,0 direction=0,-1,0 intensity=1 color=1,1,1"},
+    {"set-material", "0 roughness=0.5"},
+    {"set-node", "1 visible=0"},
+    {"time", "1.5"},
+    {"clip", "walk"}};
 
 /// Some value that is not the default.
 template <class Part>
@@ -58,7 +60,9 @@ void expect_sound(std::span<const Setting<Part>> table, std::set<std::string_vie
     for (const std::string_view other : {setting.needs, setting.excludes})
       EXPECT_TRUE(other.empty() || find_about(other) != nullptr) << setting.name;
     EXPECT_EQ(find_about(underscored(setting.name)), &setting) << "as logs write it";
-    if (setting.range.high > 0) EXPECT_LT(setting.range.low, setting.range.high) << setting.name;
+    if (setting.range.high > 0) {
+      EXPECT_LT(setting.range.low, setting.range.high) << setting.name;
+    }
   }
 }
 
@@ -77,13 +81,15 @@ void expect_round_trip(std::span<const Setting<Part>> table) {
   for (const Setting<Part>& setting : table) {
     const std::string value = other_value(setting);
     Part part, again;
-    if (setting.name == "look-at") ASSERT_TRUE(find(table, "eye")->read(part, "0,0,1"));
+    if (setting.name == "look-at") {
+      ASSERT_TRUE(find(table, "eye")->read(part, "0,0,1"));
+    }
     const auto read = setting.read(part, value);
     ASSERT_TRUE(read) << setting.name << ": " << read.error().message;
     ASSERT_EQ(setting.texts(part), std::vector<std::string>{value}) << setting.name;
     ASSERT_TRUE(setting.read(again, setting.texts(part).front())) << setting.name;
     EXPECT_FALSE(setting.same(part, Part{})) << setting.name;
-    if (setting.name != "look-at") EXPECT_TRUE(setting.same(part, again)) << setting.name;
+    EXPECT_TRUE(setting.same(part, again) || setting.name == "look-at") << setting.name;
     EXPECT_NE(arguments(table, part).find(option_name(setting)), std::string::npos) << arguments(table, part);
     if (const auto standard = setting.texts(Part{}); !standard.empty()) {
       ASSERT_TRUE(setting.read(part, standard.front())) << setting.name;
@@ -100,7 +106,7 @@ TEST(SettingTables, ReadWhatTheyWrite) {
 TEST(SettingTables, RefuseOnOneSideOfEachRange) {
   for (const auto& setting : method_table()) {
     if (setting.expected.empty()) continue;
-    for (const double outside : {setting.range.low - 1, setting.range.high * 2 + 1}) {
+    for (const double outside : {std::floor(setting.range.low) - 1, setting.range.high * 2 + 1}) {
       MethodSettings method;
       const std::string text = std::to_string(static_cast<long>(outside));
       const auto read = setting.read(method, text);

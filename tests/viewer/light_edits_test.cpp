@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "io/image.h"
-#include "settings/edit_texts.h"
+#include "options/settings_names.h"
 #include "viewer_test_scene.h"
 
 namespace tenebra::viewer {

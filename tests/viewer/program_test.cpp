@@ -44,7 +44,9 @@ TEST(Program, ExplainsEverySettingOfRender) {
     EXPECT_EQ((of_paper ? paper : help).find(name) != std::string::npos,
               settings::given_as(about) == fmt::format("--{} ", about.name) || of_paper)
         << about.name;
-    if (of_paper) EXPECT_EQ(help.find(fmt::format("\n  --{} ", about.name)), std::string::npos) << about.name;
+    if (of_paper) {
+      EXPECT_EQ(help.find(fmt::format("\n  --{} ", about.name)), std::string::npos) << about.name;
+    }
   };
   for (const auto& setting : settings::scene_table()) expect(setting);
   for (const auto& setting : settings::method_table()) expect(setting);

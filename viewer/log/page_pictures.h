@@ -6,7 +6,7 @@
 
 #include "io/image.h"
 #include "log/log_file.h"
-#include "settings/output_pattern.h"
+#include "options/settings_names.h"
 
 namespace tenebra::viewer {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "settings/output_pattern.h"
+#include "options/settings_names.h"
 
 namespace tenebra::viewer {
 

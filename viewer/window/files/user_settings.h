@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <tenebra/expected.h>
-#include "settings/values.h"
+#include "options/settings_names.h"
 
 namespace tenebra::viewer {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <tenebra/frame_geometry.h>
+#include "options/settings_names.h"
 #include "render/renderer.h"
-#include "settings/values.h"
 
 namespace tenebra::viewer {
 
