@@ -271,22 +271,16 @@ def ambient_occlusion(triangles: Triangles, points: Any, **options: Any) -> np.n
 
 # ---- Scenes ----
 
-_OF_THE_SCENE = {"scene", "no_cast", "cast_all", "cone_sides", "cutout_limit", "texture_path", "transfer",
-                 "environment", "floor", "surfaces", "set_light", "add_light", "set_material", "set_node", "fps", "clip"}
-
-
-def _quoted(text: str) -> str:
-    for mark in "\"'`":
-        if mark not in text:
-            return mark + text + mark
-    raise ValueError(f"found {text!r}, expected a text without one of the three quotation marks")
+_OF_THE_SCENE = frozenset(_core.names_of_scene())
+_OF_A_PICTURE = frozenset(_core.names_of_render())
 
 
 def _text(name: str, value: Any) -> str:
+    """One value of a setting as its text."""
     if isinstance(value, (str, os.PathLike)):
-        return _quoted(os.fspath(value))
-    if name == "aov":
-        return _quoted(",".join(value))
+        return os.fspath(value)
+    if isinstance(value, (bool, np.bool_)):
+        return "true" if value else "false"
     if name in ("size", "light_size") and not np.isscalar(value):
         return "x".join(str(side) for side in value)
     if np.isscalar(value):
@@ -294,27 +288,31 @@ def _text(name: str, value: Any) -> str:
     return ",".join(repr(float(number)) for number in value)
 
 
-def _arguments(options: Dict[str, Any]) -> str:
-    """Keywords as options of the program: light_size=(1, 2) becomes --light-size 1x2."""
-    words = []
+def _keywords(options: Dict[str, Any]) -> List[Tuple[str, str]]:
+    """Names and values of settings; a list of texts is a setting that is given several times."""
+    keywords = []
     for name, value in options.items():
-        option = "--" + name.replace("_", "-")
-        if value is None or value is False:
+        if value is None:
             continue
-        several = name != "aov" and isinstance(value, list) and value and all(isinstance(each, (str, os.PathLike)) for each in value)
-        for each in value if several else [value]:
-            words.append(option if each is True else f"{option} {_text(name, each)}")
-    return " ".join(words)
+        if name == "aov" and not isinstance(value, str):
+            value = ",".join(value)
+        several = isinstance(value, list) and value and all(isinstance(each, (str, os.PathLike)) for each in value)
+        keywords += [(name, _text(name, each)) for each in (value if several else [value])]
+    return keywords
+
+
+def _check_names(call: str, options: Dict[str, Any], known: frozenset) -> None:
+    for name in options:
+        if name not in known:
+            raise TypeError(f"{call}: found {name}, expected one of {', '.join(sorted(known))}")
 
 
 class Scene:
     """A scene file (glTF, OBJ, BART's AFF) with its animation, ready to be drawn; made by Scene.load."""
 
     def __init__(self, path: Union[str, os.PathLike], **options: Any) -> None:
-        for name in options:
-            if name not in _OF_THE_SCENE:
-                raise TypeError(f"Scene.load: found {name}, expected one of {', '.join(sorted(_OF_THE_SCENE))}")
-        self._core = _core.Scene(os.fspath(path), _arguments(options))
+        _check_names("Scene.load", options, _OF_THE_SCENE)
+        self._core = _core.Scene(os.fspath(path), _keywords(options))
         self._one_call = threading.Lock()
 
     @classmethod
@@ -377,10 +375,11 @@ class Scene:
         for name in options:
             if name in _OF_THE_SCENE:
                 raise TypeError(f"render: found {name}, which belongs to Scene.load")
+        _check_names("render", options, _OF_A_PICTURE)
         if size is not None:
             options["size"] = size
         with self._one_call:
-            return self._core.render(frame, time, _arguments(options), points, linear, progress)
+            return self._core.render(frame, time, _keywords(options), points, linear, progress)
 
     def geometry(self, frame: int = 0, *, time: Optional[float] = None) -> Dict[str, np.ndarray]:
         """The triangles of an instant: positions (v, 3) float32, normals (v, 3) float32 (zero: the face's),

@@ -340,12 +340,14 @@ py::dict picture_dict(LoadedScene::Picture&& picture) {
 
 void add_scenes(py::module_& module) {
   using Loaded = LoadedScene;
+  module.def("names_of_scene", &names_of_scene);
+  module.def("names_of_render", &names_of_render);
   py::class_<Loaded>(module, "Scene")
-      .def(py::init([](const std::string& path, const std::string& arguments) {
+      .def(py::init([](const std::string& path, const Keywords& keywords) {
         std::unique_ptr<Loaded> loaded;
         Beside beside;
         run_beside(beside, {}, 0, [&](Work&) -> Expected<void> {
-          auto made = Loaded::load(path, arguments);
+          auto made = Loaded::load(path, keywords);
           if (!made) return tl::unexpected(made.error());
           loaded = std::move(*made);
           return {};
@@ -353,11 +355,11 @@ void add_scenes(py::module_& module) {
         return loaded;
       }))
       .def("render",
-           [](Loaded& scene, int frame, std::optional<double> time_s, const std::string& arguments,
+           [](Loaded& scene, int frame, std::optional<double> time_s, const Keywords& keywords,
               bool with_points, bool linear, const Report& report) {
              std::optional<Loaded::Picture> picture;
              run_beside(scene.beside, report, 0, [&](Work& work) -> Expected<void> {
-               auto drawn = scene.render(frame, time_s, arguments, {with_points, linear}, work);
+               auto drawn = scene.render(frame, time_s, keywords, {with_points, linear}, work);
                if (!drawn) return tl::unexpected(drawn.error());
                picture = std::move(*drawn);
                return {};

@@ -1,58 +1,130 @@
 #include "loaded_scene.h"
 
+#include <algorithm>
+
 #include "base/fail.h"
+#include "session/aovs.h"
 #include "session/auto_exposure.h"
+#include "settings/nearest_word.h"
 
 namespace tenebra::python {
+namespace {
 
-Expected<std::unique_ptr<LoadedScene>> LoadedScene::load(const std::string& path,
-                                                         const std::string& arguments) {
+using settings::MethodSettings;
+using settings::SceneSettings;
+using settings::Setting;
+
+constexpr std::string_view aov_name = "aov";
+
+/// Whether a setting of the scene is chosen anew for each picture.
+bool is_of_picture(const settings::About& about) {
+  return about.group == settings::Group::camera || about.name == "size";
+}
+/// The moment is no keyword among these: render() has its own.
+bool is_of_scene(const settings::About& about) {
+  return !is_of_picture(about) && about.name != "time";
+}
+
+template <class Part, class Accept>
+void add_names(std::span<const Setting<Part>> table, const Accept& accept, std::vector<std::string>& names) {
+  for (const Setting<Part>& setting : table)
+    if (setting.now.empty() && accept(setting)) names.push_back(settings::underscored(setting.name));
+}
+
+/// Sets the row called so in Python, if the table has one that is accepted. False: it has none.
+template <class Part, class Accept>
+Expected<bool> set(std::span<const Setting<Part>> table, const std::pair<std::string, std::string>& keyword,
+                   const Accept& accept, Part& part) {
+  for (const Setting<Part>& setting : table) {
+    if (settings::underscored(setting.name) != keyword.first || !accept(setting)) continue;
+    if (auto read = setting.read(part, keyword.second); !read)
+      return base::fail("{}: {}", keyword.first, read.error().message);
+    return true;
+  }
+  return false;
+}
+
+tl::unexpected<Error> unknown(const std::string& name, const std::vector<std::string>& known) {
+  const std::string nearest = settings::nearest_word(name, known);
+  return base::fail("found no setting {}{}", name, nearest.empty() ? "" : ", did you mean " + nearest + "?");
+}
+
+const auto any = [](const settings::About&) { return true; };
+
+}  // namespace
+
+std::vector<std::string> names_of_scene() {
+  std::vector<std::string> names;
+  add_names(settings::scene_table(), is_of_scene, names);
+  return names;
+}
+
+std::vector<std::string> names_of_render() {
+  std::vector<std::string> names;
+  add_names(settings::scene_table(), is_of_picture, names);
+  add_names(settings::method_table(), any, names);
+  names.emplace_back(aov_name);
+  return names;
+}
+
+Expected<std::unique_ptr<LoadedScene>> LoadedScene::load(const std::string& path, const Keywords& keywords) {
   std::unique_ptr<LoadedScene> loaded(new LoadedScene);
-  const auto command = viewer::lone_command();
-  viewer::add_scene_options(*command, loaded->options_);
-  if (auto parsed = viewer::parse_arguments(*command, arguments); !parsed)
-    return tl::unexpected(parsed.error());
-  loaded->options_.file = path;
-  auto session = session::Session::open(loaded->options_, {.kind = render::RasterKind::cpu});
+  loaded->settings_.file = path;
+  for (const auto& keyword : keywords) {
+    const auto found = set(settings::scene_table(), keyword, is_of_scene, loaded->settings_);
+    if (!found) return tl::unexpected(found.error());
+    if (!*found) return unknown(keyword.first, names_of_scene());
+  }
+  auto session = session::Session::open(loaded->settings_, {.kind = render::RasterKind::cpu});
   if (!session) return tl::unexpected(session.error());
   loaded->session_.emplace(std::move(*session));
   loaded->display_ = loaded->staged().display;
   return loaded;
 }
 
-Expected<LoadedScene::Wish> LoadedScene::wish_of(const std::string& arguments) const {
-  Wish wish{arguments, options_, {}, {}};
-  const auto command = viewer::lone_command();
-  viewer::add_scene_options(*command, wish.scene);
-  viewer::add_method_options(*command, wish.method);
-  viewer::add_aov_option(*command, wish.aovs);
-  if (auto parsed = viewer::parse_arguments(*command, arguments); !parsed)
-    return tl::unexpected(parsed.error());
-  viewer::settle_quality(*command, wish.method);
+Expected<LoadedScene::Wish> LoadedScene::wish_of(const Keywords& keywords) const {
+  Wish wish{keywords, settings_, {}, {}};
+  settings::Given given;
+  for (const auto& keyword : keywords) {
+    if (keyword.first == aov_name) {
+      const auto aovs = session::parse_aovs(keyword.second);
+      if (!aovs) return base::fail("aov: {}", aovs.error().message);
+      wish.aovs = *aovs;
+      continue;
+    }
+    auto found = set(settings::scene_table(), keyword, is_of_picture, wish.scene);
+    if (found && !*found) found = set(settings::method_table(), keyword, any, wish.method);
+    if (!found) return tl::unexpected(found.error());
+    if (!*found) return unknown(keyword.first, names_of_render());
+    std::string name = keyword.first;
+    std::replace(name.begin(), name.end(), '_', '-');
+    given.insert(std::move(name));
+  }
+  settings::settle_quality(given, wish.method);
   if (!wish.method.terminator) wish.method.terminator = render::Terminator::flat;  // as with any mask
-  if (auto good = viewer::check_scene_settings(wish.scene); !good) return tl::unexpected(good.error());
-  if (auto good = viewer::check_method_settings(wish.method); !good) return tl::unexpected(good.error());
-  if (auto good = viewer::check_aovs(wish.aovs, wish.method.render); !good)
+  if (auto good = settings::check_scene_settings(wish.scene); !good) return tl::unexpected(good.error());
+  if (auto good = settings::check_method_settings(wish.method); !good) return tl::unexpected(good.error());
+  if (auto good = session::check_aovs(wish.aovs, wish.method.render); !good)
     return tl::unexpected(good.error());
   return wish;
 }
 
 Expected<render::RenderSettings> LoadedScene::settings_of(const Wish& wish) {
   if (wish.method.auto_exposure && !display_.exposures) {
-    const auto exposures = session::meter_exposures(staged(), options_);
+    const auto exposures = session::meter_exposures(staged(), settings_);
     if (!exposures) return tl::unexpected(exposures.error());
     display_.exposures = *exposures;
   }
   render::RenderSettings settings =
-      viewer::render_settings(wish.method, wish.scene.size.value_or(staged().size), display_);
+      settings::render_settings(wish.method, wish.scene.size.value_or(staged().size), display_);
   settings.aovs = wish.aovs;
   return settings;
 }
 
 Expected<LoadedScene::Picture> LoadedScene::render(int frame, std::optional<double> time_s,
-                                                   const std::string& arguments, Wanted wanted, Work& work) {
-  if (!wish_ || wish_->arguments != arguments) {
-    auto wish = wish_of(arguments);
+                                                   const Keywords& keywords, Wanted wanted, Work& work) {
+  if (!wish_ || wish_->keywords != keywords) {
+    auto wish = wish_of(keywords);
     if (!wish) return tl::unexpected(wish.error());
     wish_ = std::move(*wish);
   }
@@ -100,7 +172,7 @@ Expected<double> LoadedScene::time_of(int frame) const {
 
 render::FrameInput LoadedScene::at(double time_s) const {
   render::FrameInput input;
-  session::evaluate(staged().scene, options_.edits, staged().clip, time_s, input);
+  session::evaluate(staged().scene, settings_.edits, staged().clip, time_s, input);
   return input;
 }
 

@@ -105,7 +105,7 @@ def test_what_they_mean():
 
 
 @pytest.mark.parametrize("options, sentence", [
-    ({"aov": "depht"}, "--aov: found depht, expected some of depth, id"),
+    ({"aov": "depht"}, "aov: found depht, expected some of depth, id"),
     ({"aov": ["ao"]}, "--aov ao needs ambient occlusion"),
     ({"aov": ("visibility",), "shadows": "none"}, "--aov visibility needs shadows"),
 ])

@@ -122,13 +122,13 @@ def city():
 
 @pytest.mark.parametrize("call, kind, sentence", [
     (lambda scene: scene.render(scene.frames), ValueError, "frame 301 does not exist.*0 to 300"),
-    (lambda scene: scene.render(shadows="sft"), ValueError, "--shadows: found sft, expected none, hard or soft"),
-    (lambda scene: scene.render(size=(0, 8)), ValueError, "--size"),
+    (lambda scene: scene.render(shadows="sft"), ValueError, "shadows: found sft, expected none, hard or soft"),
+    (lambda scene: scene.render(size=(0, 8)), ValueError, "size: found 0x8"),
     (lambda scene: scene.render(no_cast="roof"), TypeError, "no_cast, which belongs to Scene.load"),
-    (lambda scene: scene.render(colour="red"), ValueError, "--colour"),
+    (lambda scene: scene.render(colour="red"), TypeError, "render: found colour, expected one of .*shadows"),
     (lambda scene: tenebra.Scene.load("nothing.glb"), ValueError, "nothing.glb"),
     (lambda scene: tenebra.Scene.load("nothing.glb", shadows="soft"), TypeError, "Scene.load: found shadows"),
-    (lambda scene: tenebra.Scene.load(ROOT / "scenes" / "city.glb", clip="none's"), ValueError, "none's"),
+    (lambda scene: tenebra.Scene.load(ROOT / "scenes" / "city.glb", clip="none's \"`"), ValueError, "none's"),
 ])
 def test_what_is_refused(city, call, kind, sentence):
     with pytest.raises(kind, match=sentence):
@@ -146,3 +146,10 @@ def test_a_sun_of_an_edited_light_is_the_programs(tmp_path):
                     "--antialias", "1", "--shadows", "soft", "--terminator", "flat", "-o", tmp_path / "image.png", "--quiet"],
                    check=True)
     assert np.array_equal(frame["image"], read_png(tmp_path / "image.png"))
+
+
+def test_the_module_is_not_the_program():
+    """It holds neither the program's reading of command lines nor its window."""
+    module = pathlib.Path(tenebra._core.__file__).read_bytes()
+    for part in (b"N3CLI", b"glfwInit", b"ImGui"):
+        assert part not in module, part
