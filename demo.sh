@@ -11,7 +11,7 @@ cmake --preset release -DTENEBRA_TESTS=OFF "${first[@]}" > /dev/null
 cmake --build --preset release --target tenebra
 
 build/bin/tenebra render scenes/city.glb --frames 0:95:4 --size 960x540 -o out/%04d.png --mask out/mask_%04d.png \
-  --log out/frames.csv --trace out/trace.json "$@"
+  --log out/frames.csv --log trace:out/trace.json "$@"
 
 echo
 echo "Look at:  $PWD/out/0000.png and the pictures after it, mask_*.png: the shadow masks"

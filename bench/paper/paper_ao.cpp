@@ -171,7 +171,8 @@ PaperSection ao_section_of(const PaperSession& session, const AoFindings& found)
   PaperSection section;
   section.title = ao_title;
   section.setup = fmt::format(
-      "The paper's fields (`--ao-layout positions`): maps of distances at positions on the bounding sphere. "
+      "The paper's fields (`--paper ao-layout=positions`): maps of distances at positions on the bounding "
+      "sphere. "
       "{} in the paper's corner of three walls of 33x33 points outside of the sphere, 256 rays per point; "
       "errors against {} rays per point, RMS in 1/255. Positions are cells of an octahedral map (the "
       "paper's: "

@@ -100,7 +100,8 @@ std::string hard_advice(const TradeTables& tables) {
   return fmt::format(
       "- Keep the default: on {} of {} views no other setting that gives the exact mask is faster. The "
       "paper's variants give the same mask in {} times the default's time.\n"
-      "- Front-face culling with samples from depth (`--samples depth`) takes {} of the default's time and "
+      "- Front-face culling with samples from depth (`--paper samples=depth`) takes {} of the default's time "
+      "and "
       "is wrong at {} pixels: for closed meshes only. Without culling and without a bias depth samples "
       "shadow themselves: {} wrong pixels.\n"
       "- A shadow map of 4096 is wrong at {} pixels with the best bias, one of 1024 at {}; without a bias "
@@ -133,7 +134,8 @@ std::string soft_advice(const TradeTables& tables) {
       "left out.\n"
       "- `--soft-error 4` takes {} of the exact time ({} /255 RMS, {} at the worst pixel), `--soft-error 1` "
       "{} ({} /255).\n"
-      "- `--soft-points 8` takes {} of the exact time and shows eight steps in each penumbra ({} /255 RMS, "
+      "- `--paper soft-points=8` takes {} of the exact time and shows eight steps in each penumbra ({} /255 "
+      "RMS, "
       "{} at the worst pixel); 32 points {} ({} /255).\n",
       range(tables, error(exact_soft, 3)), fastest_exact(tables, exact_soft), tables.size(),
       range(tables, against("Embree rays", 1)), range(tables, against("shafts + Embree rays", 1)),
@@ -143,11 +145,9 @@ std::string soft_advice(const TradeTables& tables) {
       range(tables, error("error asked (--soft-error), 4", 1)),
       range(tables, times("error asked (--soft-error), 1", exact_soft)),
       range(tables, error("error asked (--soft-error), 1")),
-      range(tables, times("light points (--soft-points), 8", exact_soft)),
-      range(tables, error("light points (--soft-points), 8")),
-      range(tables, error("light points (--soft-points), 8", 1)),
-      range(tables, times("light points (--soft-points), 32", exact_soft)),
-      range(tables, error("light points (--soft-points), 32")));
+      range(tables, times("light points, 8", exact_soft)), range(tables, error("light points, 8")),
+      range(tables, error("light points, 8", 1)), range(tables, times("light points, 32", exact_soft)),
+      range(tables, error("light points, 32")));
 }
 
 std::string ao_advice(const TradeTables& tables) {

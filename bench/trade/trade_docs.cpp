@@ -242,7 +242,8 @@ std::string soft_section(const TradeSession& session, const std::vector<const Tr
          "its own, and a sun 0.53 degrees wide. Errors against the solver in double precision; up to "
          "0.01/255 they count as none. White is the light that one pixel in a thousand exceeds; errors of "
          "the visible part of the light (`--mask FILE.pfm`) are larger where the light is weak. `clip` "
-         "and `bsp`: `--soft-solver`. Embree's rays are stratified and drawn beforehand; the time of its "
+         "and `bsp`: `--paper soft-solver`. Embree's rays are stratified and drawn beforehand; the time of "
+         "its "
          "tree is not counted.\n\n" +
          remarks(tables);
 }

@@ -18,7 +18,7 @@ namespace tenebra::bench {
 namespace {
 
 constexpr const char* error_family = "error asked (--soft-error)";
-constexpr const char* points_family = "light points (--soft-points)";
+constexpr const char* points_family = "light points";
 
 /// In 1/255 of white: over the penumbra and over the whole picture.
 std::vector<double> errors_of(const Truth& truth, std::span<const float> irradiance) {

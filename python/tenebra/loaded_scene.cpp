@@ -28,7 +28,7 @@ bool is_of_scene(const settings::About& about) {
 template <class Part, class Accept>
 void add_names(std::span<const Setting<Part>> table, const Accept& accept, std::vector<std::string>& names) {
   for (const Setting<Part>& setting : table)
-    if (setting.now.empty() && accept(setting)) names.push_back(settings::underscored(setting.name));
+    if (accept(setting)) names.push_back(settings::underscored(setting.name));
 }
 
 /// Sets the row called so in Python, if the table has one that is accepted. False: it has none.

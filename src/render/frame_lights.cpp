@@ -28,9 +28,10 @@ void give_area(DrawnLight& drawn, const AreaLightSettings& settings, const math:
   } else if (!area) {
     notes.push_back(fmt::format("{} keeps hard shadows: {}", title(drawn), area.error().message));
   } else if (drawn.light.type == LightType::directional) {
-    notes.push_back(fmt::format(
-        "{} is directional and keeps hard shadows, unless --sun-size or --set-light gives it a diameter",
-        title(drawn)));
+    notes.push_back(
+        fmt::format("{} is directional and keeps hard shadows, unless --light-size sun=DEGREES or "
+                    "--set-light gives it a diameter",
+                    title(drawn)));
   } else {
     notes.push_back(fmt::format(
         "{} is a point and keeps hard shadows, unless --light-size or --set-light gives it a size",

@@ -39,11 +39,9 @@ Setting<MethodSettings> ao_distance() {
 void add_ao_method(MethodRows& rows) {
   rows.push_back(MethodRow::words(
       {.name = "ao",
-       .help =
-           "Ambient occlusion. adaptive: by rays where the picture needs them, as many as --ao-error takes, "
-           "filtered; field: by displacement fields of the rigid objects; rays: by casting rays everywhere, "
-           "for "
-           "comparison"},
+       .help = "Ambient occlusion. adaptive: by rays where the picture needs them, as many as --ao-error "
+               "takes, filtered; field: by displacement fields of the rigid objects; rays: by casting rays "
+               "everywhere, for comparison"},
       [](auto& method) -> auto& { return method.render.ao.mode; }, ao_choices));
   rows.push_back(MethodRow::number(
       {.name = "ao-error",
@@ -63,8 +61,7 @@ void add_ao_method(MethodRows& rows) {
       [](auto& method) -> auto& { return method.render.ao.place; }, place_choices));
   rows.push_back(MethodRow::words(
       {.name = "ao-layout",
-       .help = "What a field stores: chords from entry to exit, or as in the paper positions x "
-               "directions",
+       .help = "What a field stores: chords from entry to exit, or as in the paper positions x directions",
        .audience = Audience::paper,
        .used = Used::with_fields},
       [](auto& method) -> auto& { return method.render.ao.layout; }, layout_choices));
@@ -132,9 +129,8 @@ void add_ao_memory(MethodRows& rows) {
   rows.push_back(MethodRow::value(
       {.name = "ao-cache",
        .value = "FOLDER|none",
-       .help =
-           "Folder that keeps trees of triangles, fields and surface samples for the next run; any number of "
-           "processes may share it",
+       .help = "Folder that keeps trees of triangles, fields and surface samples for the next run; any "
+               "number of processes may share it",
        .standard = "$XDG_CACHE_HOME/tenebra or ~/.cache/tenebra",
        .group = Group::ao,
        .affects = Affects::speed,
@@ -147,8 +143,7 @@ void add_ao_memory(MethodRows& rows) {
       {.name = "ao-memory",
        .value = "MB",
        .help = "Memory for fields and surface samples, in MB; the least recently used are dropped first. For "
-               "bodies "
-               "without room rays are cast, which takes longer",
+               "bodies without room rays are cast, which takes longer",
        .group = Group::run,
        .used = Used::with_other_ao,
        .range = any_range,

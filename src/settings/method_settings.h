@@ -66,7 +66,7 @@ MethodSettings settled(MethodSettings method, const render::RenderSettings& rend
 constexpr std::size_t bytes_of_mb(int mb) {
   return static_cast<std::size_t>(mb) << 20;
 }
-/// --soft-memory: that much for soft shadows, and BSPs of any size within it.
+/// --memory soft:MB: that much for soft shadows, and BSPs of any size within it.
 void set_soft_memory(int mb, SoftShadowConfig& soft);
 /// What was given to it; none: nothing.
 std::optional<int> soft_memory_mb(const SoftShadowConfig& soft);

@@ -24,23 +24,21 @@ Setting<MethodSettings> exposure() {
   const auto texts = [](const MethodSettings& method) -> std::vector<std::string> {
     return {method.auto_exposure ? "auto" : fmt::format("{}", method.render.exposure)};
   };
-  return MethodRow::own(
-      {.name = "exposure",
-       .value = "E|auto",
-       .help = "Multiplies all light by this factor; auto: by one that leaves at most a hundredth of the "
-               "pixels too bright, the same for the whole animation",
-       .range = {0.01, 100}},
-      read, texts);
+  return MethodRow::own({.name = "exposure",
+                         .value = "E|auto",
+                         .help = "Multiplies all light by this factor; auto: by one that leaves at most a "
+                                 "hundredth of the pixels too bright, the same for the whole animation",
+                         .range = {0.01, 100}},
+                        read, texts);
 }
 
 Setting<MethodSettings> variant() {
-  About about{
-      .name = "variant",
-      .help =
-          "Method of hard shadows: Tiles, or one of the seven of the paper's Table 1; the mask is the same "
-          "with each",
-      .audience = Audience::paper,
-      .used = Used::with_shadows};
+  About about{.name = "variant",
+              .help =
+                  "Method of hard shadows: Tiles, or one of the seven of the paper's Table 1; the mask is "
+                  "the same with each",
+              .audience = Audience::paper,
+              .used = Used::with_shadows};
   for (int i = 0; i <= static_cast<int>(Variant::precise_seatp); ++i)
     about.words.push_back(variant_name(static_cast<Variant>(i)));
   const auto parse = [](const std::string& text) -> Expected<Variant> {
@@ -48,8 +46,7 @@ Setting<MethodSettings> variant() {
       if (is_word(text, variant_name(static_cast<Variant>(i)))) return static_cast<Variant>(i);
     return base::fail(
         "found {}, expected Tiles, Precise, PreciseSorted, Spheres, SpheresSorted, PreciseSEA, PreciseEATP "
-        "or "
-        "PreciseSEATP",
+        "or PreciseSEATP",
         text);
   };
   return MethodRow::value(
@@ -60,13 +57,11 @@ Setting<MethodSettings> variant() {
 void add_accuracy(MethodRows& rows) {
   rows.push_back(MethodRow::words(
       {.name = "quality",
-       .help = "Accuracy of soft shadows and ambient occlusion. fast: --soft-error 4 --ao-error 5 (penumbrae "
-               "off by "
-               "0 to 4/255 RMS), with --ao field --ao-rays 16 and --paper ao-downscale=2 (occlusion off by 1 "
-               "to 7); "
-               "balanced: the defaults (exact; 2.5; fields 1 to 6); exact: --ao-error 1, fields --ao-rays "
-               "256 (1 to "
-               "5); docs/trade.md has all figures. Settings that are given themselves win",
+       .help =
+           "Accuracy of soft shadows and ambient occlusion. fast: --soft-error 4 --ao-error 5 (penumbrae off "
+           "by 0 to 4/255 RMS), with --ao field --ao-rays 16 and --paper ao-downscale=2 (occlusion off by 1 "
+           "to 7); balanced: the defaults (exact; 2.5; fields 1 to 6); exact: --ao-error 1, fields --ao-rays "
+           "256 (1 to 5); docs/trade.md has all figures. Settings that are given themselves win",
        .standard = "balanced",
        .used = Used::with_accuracy},
       [](auto& method) -> auto& { return method.quality; }, quality_choices));
@@ -79,15 +74,13 @@ void add_accuracy(MethodRows& rows) {
 void add_surfaces(MethodRows& rows) {
   rows.push_back(MethodRow::words(
       {.name = "see-through",
-       .help = "Glass and blended surfaces colour the light behind them, cast black shadows, or "
-               "none",
+       .help = "Glass and blended surfaces colour the light behind them, cast black shadows, or none",
        .group = Group::shadows},
       [](auto& method) -> auto& { return method.render.see_through; }, see_through_choices));
   rows.push_back(MethodRow::words(
       {.name = "terminator",
        .help = "Where grazing light ends: on the smooth surface that normals describe, from where shadows "
-               "then start; "
-               "or (flat) at the planes of the triangles, which shows teeth",
+               "then start; or (flat) at the planes of the triangles, which shows teeth",
        .standard = "smooth; render with a mask of any kind: flat",
        .group = Group::shadows},
       [](auto& method) -> auto& { return method.terminator; }, terminator_choices));
@@ -105,8 +98,7 @@ void add_picture(MethodRows& rows) {
   rows.push_back(MethodRow::words(
       {.name = "tone",
        .help = "How bright colours are fitted into a picture: cut off (none), by Khronos PBR Neutral, or "
-               "like film by "
-               "a fit to ACES",
+               "like film by a fit to ACES",
        .standard = "neutral; none for AFF and NFF and with --transfer display",
        .group = Group::picture},
       [](auto& method) -> auto& { return method.tone; }, tone_choices));
@@ -114,8 +106,7 @@ void add_picture(MethodRows& rows) {
       {.name = "antialias",
        .value = "N",
        .help = "Samples of pixels with an edge, a shadow's edge or a fine texture: 1, 2, 4, 8 or 16; all "
-               "others have "
-               "one",
+               "others have one",
        .group = Group::picture},
       [](auto& method) -> auto& { return method.render.antialias; }, antialias_choices));
 }
@@ -135,8 +126,7 @@ void add_machine(MethodRows& rows) {
       {.name = "simd",
        .value = "LEVEL",
        .help = "Vector instructions: auto, scalar, sse4, avx2, avx512 or, on ARM, neon; the pictures are the "
-               "same with "
-               "each",
+               "same with each",
        .group = Group::run,
        .affects = Affects::speed},
       [](auto& method) -> auto& { return method.render.hard.simd; }, parse_simd,
@@ -147,8 +137,8 @@ void add_hard(MethodRows& rows) {
   rows.push_back(variant());
   rows.push_back(MethodRow::words(
       {.name = "samples",
-       .help = "Where shadow rays start: at exact points, from triangle ids, or as in the paper "
-               "from the depth buffer",
+       .help = "Where shadow rays start: at exact points, from triangle ids, or as in the paper from the "
+               "depth buffer",
        .audience = Audience::paper,
        .used = Used::with_shadows},
       [](auto& method) -> auto& { return method.render.samples; }, sample_choices));

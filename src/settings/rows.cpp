@@ -28,8 +28,10 @@ Expected<int> parse_whole_in_range(const About& about, const std::string& text) 
 }
 
 Expected<bool> parse_switch(const std::string& text) {
-  for (const auto& [word, value] : {std::pair("true", true), {"yes", true}, {"false", false}, {"no", false}})
-    if (is_word(text, word)) return value;
+  for (const char* word : {"true", "yes", "on", "1"})
+    if (is_word(text, word)) return true;
+  for (const char* word : {"false", "no", "off", "0"})
+    if (is_word(text, word)) return false;
   return base::fail("found {}, expected yes or no", text);
 }
 

@@ -37,7 +37,7 @@ const T* value_in(const std::optional<T>& value) {
 /// "found x, expected `about.expected`" on what is no number or out of range.
 Expected<double> parse_in_range(const About& about, const std::string& text);
 Expected<int> parse_whole_in_range(const About& about, const std::string& text);
-/// true and yes, false and no, in any case.
+/// true, yes, on and 1; false, no, off and 0; in any case.
 Expected<bool> parse_switch(const std::string& text);
 
 /// Makes rows of a table of settings that are kept in a Part. `get` returns a reference to the member, which

@@ -114,8 +114,8 @@ void add_files(SceneRows& rows) {
   rows.push_back(SceneRow::number(
       {.name = "cutout-limit",
        .value = "N",
-       .help = "Triangles that may be added where alpha cuts a surface out; the cut is coarser "
-               "if it takes more",
+       .help =
+           "Triangles that may be added where alpha cuts a surface out; the cut is coarser if it takes more",
        .group = Group::scene,
        .range = {0, 1e6},
        .expected = "a whole number from 0 to 1000000"},
@@ -126,22 +126,21 @@ void add_files(SceneRows& rows) {
 void add_looks(SceneRows& rows) {
   rows.push_back(SceneRow::words(
       {.name = "transfer",
-       .help = "srgb: colours are linear light, pictures are encoded; display: colours are shown "
-               "unchanged, as in 1999",
+       .help = "srgb: colours are linear light, pictures are encoded; display: colours are shown unchanged, "
+               "as in 1999",
        .standard = "display for AFF and NFF, srgb for the others",
        .group = Group::scene},
       [](auto& scene) -> auto& { return scene.transfer; }, transfer_choices));
   rows.push_back(SceneRow::text(
       {.name = "environment",
        .value = "FILE",
-       .help = "Radiance picture (.hdr, equirectangular) of the scene's surroundings: its "
-               "background, its ambient light and what metals mirror"},
+       .help = "Radiance picture (.hdr, equirectangular) of the scene's surroundings: its background, its "
+               "ambient light and what metals mirror"},
       [](auto& scene) -> auto& { return scene.environment; }));
   rows.push_back(SceneRow::words(
       {.name = "floor",
-       .help = "auto: a file without light, which gets a sun and a soft sky, also gets a floor "
-               "that shows the shadow, if it has none and there is no --environment; none: no "
-               "floor",
+       .help = "auto: a file without light, which gets a sun and a soft sky, also gets a floor that shows "
+               "the shadow, if it has none and there is no --environment; none: no floor",
        .group = Group::scene},
       [](auto& scene) -> auto& { return scene.floor; }, floor_choices));
   rows.push_back(SceneRow::words(
@@ -152,31 +151,26 @@ void add_looks(SceneRows& rows) {
 }
 
 void add_edits(SceneRows& rows) {
-  rows.push_back(edit(
-      {.name = "set-light",
-       .help =
-           "\"N KEY=VALUE ...\" changes light N: on=0, intensity=FACTOR, color=R,G,B, direction=X,Y,Z, "
-           "move=X,Y,Z "
-           "(metres), size=WxH (metres, for soft shadows), diameter=DEGREES (of directional lights); may be "
-           "repeated"},
-      [](const std::string& text, stage::SceneEdits& edits) {
-        return parse_light_edit(text, edits.lights);
-      }));
+  rows.push_back(edit({.name = "set-light",
+                       .help = "\"N KEY=VALUE ...\" changes light N: on=0, intensity=FACTOR, color=R,G,B, "
+                               "direction=X,Y,Z, move=X,Y,Z (metres), size=WxH (metres, for soft shadows), "
+                               "diameter=DEGREES (of directional lights); may be repeated"},
+                      [](const std::string& text, stage::SceneEdits& edits) {
+                        return parse_light_edit(text, edits.lights);
+                      }));
   rows.push_back(
       edit({.name = "add-light",
             .help = "\"TYPE KEY=VALUE ...\" adds a light: point, spot or directional; position=X,Y,Z, "
                     "direction=X,Y,Z, intensity=VALUE, color=R,G,B; may be repeated"},
            parse_added_light));
-  rows.push_back(
-      edit({.name = "set-material",
-            .help = "\"N KEY=VALUE ...\" changes material N: color=R,G,B, emissive=R,G,B, specular=R,G,B, "
-                    "roughness=VALUE, metallic=VALUE; may be repeated"},
-           parse_material_edit));
-  rows.push_back(
-      edit({.name = "set-node",
-            .help = "\"N KEY=VALUE ...\" changes node N and all below it: visible=0, casts=0; may be "
-                    "repeated"},
-           parse_node_edit));
+  rows.push_back(edit({.name = "set-material",
+                       .help = "\"N KEY=VALUE ...\" changes material N: color=R,G,B, emissive=R,G,B, "
+                               "specular=R,G,B, roughness=VALUE, metallic=VALUE; may be repeated"},
+                      parse_material_edit));
+  rows.push_back(edit(
+      {.name = "set-node",
+       .help = "\"N KEY=VALUE ...\" changes node N and all below it: visible=0, casts=0; may be repeated"},
+      parse_node_edit));
 }
 
 void add_moment(SceneRows& rows) {

@@ -12,11 +12,12 @@ Setting<MethodSettings> light_size() {
   return MethodRow::value(
       {.name = "light-size",
        .value = "W[xH][%]",
-       .help = "Turns point and spot lights into rectangles of this size, in metres, or (4%) in percent "
-               "of the scene's diagonal, of the same brightness. May be repeated: facing=X,Y,Z, the point "
-               "that they "
-               "face; emission=point|lambert; sun=DEGREES, the diameter of directional lights, like 0.53",
+       .help =
+           "Turns point and spot lights into rectangles of this size, in metres, or (4%) in percent of the "
+           "scene's diagonal, of the same brightness. May be repeated: facing=X,Y,Z, the point that they "
+           "face; emission=point|lambert; sun=DEGREES, the diameter of directional lights, like 0.53",
        .standard = "they stay points",
+       .used = Used::with_soft,
        .has_keys = true},
       [](auto& method) -> auto& { return method.light_size; }, parse_light_size, light_size_text);
 }
@@ -26,9 +27,9 @@ void add_light_shapes(MethodRows& rows) {
   rows.push_back(MethodRow::number(
       {.name = "sun-size",
        .value = "DEGREES",
-       .help = "Diameter of directional lights, like 0.53, at the same brightness; 0: hard "
-               "shadows",
+       .help = "Diameter of directional lights, like 0.53, at the same brightness; 0: hard shadows",
        .standard = "as the scene has it",
+       .used = Used::with_soft,
        .range = {0, 90},
        .expected = "degrees from 0 to 90, like 0.53",
        .as = "--light-size sun="},
@@ -44,10 +45,9 @@ void add_light_shapes(MethodRows& rows) {
       [](auto& method) -> auto& { return method.render.area_lights.facing; }, parse_vector, vector_text));
   rows.push_back(MethodRow::words(
       {.name = "light-emission",
-       .help = "How the rectangles shine. point: in every direction as bright as the point, so soft "
-               "and hard shadows have the same light; lambert: to one side, like a lamp's face, as bright as "
-               "the point "
-               "straight ahead",
+       .help = "How the rectangles shine. point: in every direction as bright as the point, so soft and hard "
+               "shadows have the same light; lambert: to one side, like a lamp's face, as bright as the "
+               "point straight ahead",
        .group = Group::shadows,
        .used = Used::with_soft,
        .as = "--light-size emission="},
@@ -72,32 +72,30 @@ Setting<MethodSettings> soft_memory() {
     if (!mb) return {};
     return {fmt::format("{}", *mb)};
   };
-  return MethodRow::own(
-      {.name = "soft-memory",
-       .value = "MB",
-       .help = "Memory for soft shadows, in MB: BSPs, which may have any size within it, candidates, and "
-               "lists of them; a frame that needs more ends with a message",
-       .standard = "what the system has, and 4 for a BSP",
-       .group = Group::run,
-       .used = Used::with_soft_exact,
-       .range = {0, 1e6},
-       .as = "--memory soft:"},
-      read, texts);
+  return MethodRow::own({.name = "soft-memory",
+                         .value = "MB",
+                         .help = "Memory for soft shadows, in MB: BSPs, which may have any size within it, "
+                                 "candidates, and lists of them; a frame that needs more ends with a message",
+                         .standard = "what the system has, and 4 for a BSP",
+                         .group = Group::run,
+                         .used = Used::with_soft_exact,
+                         .range = {0, 1e6},
+                         .as = "--memory soft:"},
+                        read, texts);
 }
 
 void add_soft_solvers(MethodRows& rows) {
   rows.push_back(MethodRow::words(
       {.name = "soft-solver",
        .help = "How the visible part of a light is found: by the paper's lazy BSP, by clipping, or (auto) "
-               "meshes by "
-               "their silhouettes and the rest by clipping; the picture is the same",
+               "meshes by their silhouettes and the rest by clipping; the picture is the same",
        .audience = Audience::paper,
        .used = Used::with_soft_exact},
       [](auto& method) -> auto& { return method.render.soft.solver; }, solver_choices));
   rows.push_back(MethodRow::words(
       {.name = "soft-grouping",
-       .help = "Points that are solved together: neighbours, or as in the paper's Algorithm 2 "
-               "those of a triangle",
+       .help = "Points that are solved together: neighbours, or as in the paper's Algorithm 2 those of a "
+               "triangle",
        .audience = Audience::paper,
        .used = Used::with_soft_exact},
       [](auto& method) -> auto& { return method.render.soft.grouping; }, grouping_choices));
@@ -121,8 +119,7 @@ void add_soft_accuracy(MethodRows& rows) {
       {.name = "soft-points",
        .value = "N",
        .help = "Replaces each area light by N points with exact hard shadows, which leaves steps in the "
-               "penumbra and "
-               "no estimate of the error",
+               "penumbra and no estimate of the error",
        .standard = "0: as --soft-error says",
        .audience = Audience::paper,
        .used = Used::with_soft,
@@ -134,8 +131,7 @@ void add_soft_accuracy(MethodRows& rows) {
       {.name = "soft-error",
        .value = "E",
        .help = "The error aimed at, RMS over the penumbra, in 1/255 of white: dense penumbrae are sampled at "
-               "as many "
-               "places on the light as that takes; the log has the estimate",
+               "as many places on the light as that takes; the log has the estimate",
        .standard = "0: exact",
        .group = Group::shadows,
        .used = Used::with_soft_exact,

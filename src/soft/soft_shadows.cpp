@@ -53,7 +53,7 @@ std::string refusal_of(std::size_t needed, std::size_t most) {
   const std::size_t all = needed / (soft::share_of_lists - 1) * soft::share_of_lists;
   return fmt::format(
       "not enough memory for soft shadows, {} MB are allowed and points that are solved together need at "
-      "least {} MB; expected a larger bound (--soft-memory)",
+      "least {} MB; expected a larger bound (--memory soft:MB)",
       mb(most), mb(all + (std::size_t{1} << 20) - 1));
 }
 

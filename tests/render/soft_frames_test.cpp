@@ -204,10 +204,10 @@ TEST(SoftFrames, LightsWithoutASizeKeepHardShadowsAndAreNamedOnce) {
   EXPECT_EQ(
       result.notes[0],
       "light 0 (lamp) is a point and keeps hard shadows, unless --light-size or --set-light gives it a size");
-  EXPECT_EQ(
-      result.notes[1],
-      "light 1 (sun) is directional and keeps hard shadows, unless --sun-size or --set-light gives it a "
-      "diameter");
+  EXPECT_EQ(result.notes[1],
+            "light 1 (sun) is directional and keeps hard shadows, unless --light-size sun=DEGREES or "
+            "--set-light gives it a "
+            "diameter");
   const io::Image8 image = result.image;
   for (const render::LightMask& mask : result.masks) {
     ASSERT_EQ(mask.visible_fraction.pixels.size(), mask.mask.pixels.size());

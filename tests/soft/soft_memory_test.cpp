@@ -107,7 +107,7 @@ TEST(SoftMemory, RefusesAFrameWhoseGroupsDoNotFitAlone) {
     for (const int threads : {1, 2, 7}) {
       const Traced refused = trace_with(tracer, c, bounded(solver, 2 * mib), threads);
       EXPECT_FALSE(refused.done);
-      EXPECT_NE(refused.refusal.find("--soft-memory"), std::string::npos) << refused.refusal;
+      EXPECT_NE(refused.refusal.find("--memory soft:MB"), std::string::npos) << refused.refusal;
       if (threads == 1) sentence = refused.refusal;
       EXPECT_EQ(refused.refusal, sentence);
     }

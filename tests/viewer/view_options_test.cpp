@@ -111,7 +111,7 @@ TEST(MemoryOption, GivesSoftShadowsHalfUnlessTheyHaveTheirOwn) {
     EXPECT_EQ(soft.memory_bytes.value_or(0), std::size_t(soft_mb) << 20) << text;
     EXPECT_EQ(soft.tree_bytes, std::size_t(largest_tree)) << text;
   }
-  const SoftShadowConfig own = settled("--memory 300 --soft-memory 200").render.soft;
+  const SoftShadowConfig own = settled("--memory 300 --memory soft:200").render.soft;
   EXPECT_EQ(own.memory_bytes, std::size_t{200} << 20);
   EXPECT_GT(own.tree_bytes, std::size_t{200} << 20) << "trees of any size";
 }

@@ -10,6 +10,7 @@
 #include "io/input_file.h"
 #include "options/setting_options.h"
 #include "settings/nearest_word.h"
+#include "settings/rows.h"
 #include "shell/console.h"
 
 namespace tenebra::viewer {
@@ -31,7 +32,9 @@ void apply(CLI::App& command, CLI::Option& option, CLI::ConfigItem item) {
       !item.inputs.empty() && std::erase_if(item.inputs, is_key) > 0 && item.inputs.empty();
   if (!option.empty() || keys_alone) return;
   if (is_flag(option)) {
-    option.add_result(option.get_flag_value(item.name, CLI::ConfigBase().to_flag(item)));
+    const auto on = settings::parse_switch(CLI::ConfigBase().to_flag(item));
+    if (!on) throw CLI::ValidationError(option.get_name(), on.error().message);
+    option.add_result(*on ? "true" : "false");
   } else if (option.get_expected_max() > 1) {
     option.add_result(item.inputs);
   } else {

@@ -20,7 +20,7 @@ AddedOption add_memory_option(CLI::App& command, std::optional<int>& memory_mb,
 
 /// Where --memory is given and --ao-memory is not, fields and surface samples take a quarter of it at most,
 /// and no more than they take without it. In the same way soft shadows take at most half without
-/// --soft-memory. To be called once all options are read.
+/// --memory soft:MB. To be called once all options are read.
 void settle_memory(const CLI::App& command, std::optional<int> memory_mb, MethodOptions& method);
 
 }  // namespace tenebra::viewer

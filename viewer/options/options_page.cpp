@@ -71,9 +71,9 @@ std::string table_head() {
   return "\n| option | default | what it does |\n|---|---|---|\n";
 }
 
-/// Whether it only stands for an old option, which another row describes.
-bool is_old(const About& about) {
-  return about.as.ends_with(' ');
+/// Whether it is a key of another option, whose row describes it.
+bool is_key(const About& about) {
+  return !about.as.empty();
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ std::string options_page() {
                             Group::ao, Group::output, Group::run}) {
     text += fmt::format("\n## {}\n{}", settings::group_title(group), table_head());
     for (const PageRow& row : rows)
-      if (row.about->group == group && row.about->audience == Audience::user && !is_old(*row.about))
+      if (row.about->group == group && row.about->audience == Audience::user && !is_key(*row.about))
         text += line(row);
   }
   text +=

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "options/memory_option.h"
+#include "session/aovs.h"
 #include "settings/rows.h"
 #include "settings/tables.h"
 
@@ -70,35 +71,33 @@ settings::Setting<RenderOptions> output() {
   const auto texts = [](const RenderOptions& options) -> std::vector<std::string> {
     return {options.pictures.files ? options.pictures.files->text() : "none"};
   };
-  return OutputRow::own(
-      {.name = "output",
-       .value = "FILE.png|FILE.exr|-",
-       .help = "Names of the pictures; %04d or #### is the frame. .exr: OpenEXR with linear colours; -: to "
-               "standard output, for a pipe; none: no pictures",
-       .affects = Affects::files,
-       .letter = "o"},
-      read, texts);
+  return OutputRow::own({.name = "output",
+                         .value = "FILE.png|FILE.exr|-",
+                         .help = "Names of the pictures; %04d or #### is the frame. .exr: OpenEXR with "
+                                 "linear colours; -: to standard output, for a pipe; none: no pictures",
+                         .affects = Affects::files,
+                         .letter = "o"},
+                        read, texts);
 }
 
 settings::Setting<RenderOptions> aov() {
   const auto read = [](RenderOptions& options, const std::string& text) -> Expected<void> {
-    const auto aovs = parse_aovs(text);
+    const auto aovs = session::parse_aovs(text);
     if (!aovs) return tl::unexpected(aovs.error());
     options.pictures.aovs = *aovs;
     return {};
   };
   const auto texts = [](const RenderOptions& options) -> std::vector<std::string> {
-    const std::string words = aov_words(options.pictures.aovs);
+    const std::string words = session::aov_words(options.pictures.aovs);
     return words.empty() ? std::vector<std::string>() : std::vector<std::string>{words};
   };
-  return OutputRow::own(
-      {.name = "aov",
-       .value = "A,B,...",
-       .help = "Further layers of OpenEXR pictures: depth, id, normal, visibility, irradiance, ao, albedo "
-               "(docs/exr.md)",
-       .group = Group::output,
-       .affects = Affects::files},
-      read, texts);
+  return OutputRow::own({.name = "aov",
+                         .value = "A,B,...",
+                         .help = "Further layers of OpenEXR pictures: depth, id, normal, visibility, "
+                                 "irradiance, ao, albedo (docs/exr.md)",
+                         .group = Group::output,
+                         .affects = Affects::files},
+                        read, texts);
 }
 
 void add_frames(OutputRows& rows) {
@@ -121,8 +120,8 @@ void add_frames(OutputRows& rows) {
       [](const Chunk& chunk) { return fmt::format("{}/{}", chunk.index, chunk.count); }));
   rows.push_back(OutputRow::flag(
       {.name = "resume",
-       .help = "Continue a render of the same scene, settings and program where it ended; fails if "
-               "these differ",
+       .help =
+           "Continue a render of the same scene, settings and program where it ended; fails if these differ",
        .group = Group::run,
        .affects = Affects::files},
       [](auto& options) -> auto& { return options.resume; }));
@@ -149,11 +148,11 @@ void add_files(OutputRows& rows) {
   rows.push_back(masks(
       {.name = "mask",
        .value = "[KIND:]FILE",
-       .help = "Shadow masks, .png or .pfm: 255 lit; 0 in shadow, facing away or background; soft: "
-               "values in between, the visible part of the light; .pfm: in 32 bits; several lights "
-               "add _L0, _L1, ...; may be repeated. KIND colour: times the shares of red, green and "
-               "blue that glass lets pass; mean: over each pixel's samples; samples: each of them, "
-               "_S0, _S1, ...; error: how far off the light at each pixel may be, in 1/255",
+       .help = "Shadow masks, .png or .pfm: 255 lit; 0 in shadow, facing away or background; soft: values in "
+               "between, the visible part of the light; .pfm: in 32 bits; several lights add _L0, _L1, ...; "
+               "may be repeated. KIND colour: times the shares of red, green and blue that glass lets pass; "
+               "mean: over each pixel's samples; samples: each of them, _S0, _S1, ...; error: how far off "
+               "the light at each pixel may be, in 1/255",
        .has_keys = true},
       [](auto& options) -> auto& { return options.masks; }));
   rows.push_back(masks(
@@ -171,8 +170,7 @@ void add_files(OutputRows& rows) {
   rows.push_back(masks(
       {.name = "mask-samples",
        .value = "FILE",
-       .help = "The mask of each sample, the centre's first; a pixel with one sample has it in all of "
-               "them",
+       .help = "The mask of each sample, the centre's first; a pixel with one sample has it in all of them",
        .as = "--mask samples:"},
       [](auto& options) -> auto& { return options.mask_samples; }));
   rows.push_back(masks(
@@ -185,8 +183,8 @@ void add_files(OutputRows& rows) {
   rows.push_back(file(
       {.name = "log",
        .value = "[trace:]FILE",
-       .help = "Log, .csv: times and counts of each frame. May be repeated: trace:FILE.json, the same "
-               "times for Perfetto or chrome://tracing",
+       .help = "Log, .csv: times and counts of each frame. May be repeated: trace:FILE.json, the same times "
+               "for Perfetto or chrome://tracing",
        .has_keys = true},
       [](auto& options) -> auto& { return options.log; }));
   rows.push_back(file(
@@ -201,9 +199,8 @@ void add_limits(OutputRows& rows) {
   rows.push_back(OutputRow::number(
       {.name = "budget",
        .value = "MS",
-       .help = "Time for a frame, in ms: each gets the smallest errors of a fixed ladder that "
-               "fit, as --soft-error and --ao-error; none smaller than those of --quality. The "
-               "log has them",
+       .help = "Time for a frame, in ms: each gets the smallest errors of a fixed ladder that fit, as "
+               "--soft-error and --ao-error; none smaller than those of --quality. The log has them",
        .group = Group::run,
        .range = {1e-300, 1e300},
        .expected = "a number above 0"},

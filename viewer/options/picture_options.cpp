@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/fail.h"
+#include "session/aovs.h"
 #include "settings/choices.h"
 
 namespace tenebra::viewer {
@@ -18,19 +19,6 @@ constexpr std::array exr_type_choices{Choice<io::exr::Precision>{"half", io::exr
                                       Choice<io::exr::Precision>{"float", io::exr::Precision::full}};
 constexpr std::array exr_compression_choices{Choice<io::exr::Compression>{"zip", io::exr::Compression::zip},
                                              Choice<io::exr::Compression>{"piz", io::exr::Compression::piz}};
-
-struct AovName {
-  std::string_view name;
-  bool& (*wanted)(render::AovChoice&);
-};
-constexpr std::array aov_names{
-    AovName{"depth", [](render::AovChoice& o) -> bool& { return o.depth; }},
-    AovName{"id", [](render::AovChoice& o) -> bool& { return o.ids; }},
-    AovName{"normal", [](render::AovChoice& o) -> bool& { return o.normal; }},
-    AovName{"visibility", [](render::AovChoice& o) -> bool& { return o.visibility; }},
-    AovName{"irradiance", [](render::AovChoice& o) -> bool& { return o.irradiance; }},
-    AovName{"ao", [](render::AovChoice& o) -> bool& { return o.openness; }},
-    AovName{"albedo", [](render::AovChoice& o) -> bool& { return o.albedo; }}};
 
 /// Sets what `word` is one of; false: it is none of these.
 template <class T, std::size_t N>
@@ -78,49 +66,6 @@ std::vector<std::string> format_words(const PictureOptions& options) {
   return words.empty() ? std::vector<std::string>() : std::vector<std::string>{words};
 }
 
-Expected<render::AovChoice> parse_aovs(const std::string& text) {
-  render::AovChoice options;
-  std::string_view rest = text;
-  for (bool last = false; !last;) {
-    const std::size_t comma = rest.find(',');
-    const std::string word(rest.substr(0, comma));
-    last = comma == std::string_view::npos;
-    if (!last) rest.remove_prefix(comma + 1);
-    const AovName* found = nullptr;
-    for (const AovName& aov : aov_names)
-      if (is_word(word, aov.name)) found = &aov;
-    if (found == nullptr)
-      return base::fail(
-          "found {}, expected some of depth, id, normal, visibility, irradiance, ao and albedo, like "
-          "depth,id",
-          text);
-    found->wanted(options) = true;
-  }
-  return options;
-}
-
-std::string aov_words(render::AovChoice aovs) {
-  std::string words;
-  for (const AovName& aov : aov_names)
-    if (aov.wanted(aovs)) words += fmt::format("{}{}", words.empty() ? "" : ",", aov.name);
-  return words;
-}
-
-void add_aov_option(CLI::App& command, render::AovChoice& aovs) {
-  add_value(command, "--aov", aovs, parse_aovs,
-            "Further layers of OpenEXR pictures: depth, id, normal,\n"
-            "visibility, irradiance, ao, albedo (docs/exr.md)")
-      .type_name("A,B,...");
-}
-
-Expected<void> check_aovs(const render::AovChoice& aovs, const render::RenderSettings& settings) {
-  if (aovs.visibility && settings.shadows == render::ShadowMode::none)
-    return base::fail("--aov visibility needs shadows, and --shadows none finds none");
-  if (aovs.openness && settings.ao.mode == AoMode::none)
-    return base::fail("--aov ao needs ambient occlusion; expected --ao adaptive, field or rays with it");
-  return {};
-}
-
 void settle_picture_options(PictureOptions& options) {
   if (!options.files || !options.files->is_pipe()) return;
   options.files.reset();
@@ -147,9 +92,7 @@ std::string pictures_text(const PictureOptions& options) {
   if (!options.are_exr()) return text;
   text += " (" + choice_name(exr_type_choices, options.precision.value_or(io::exr::Precision::half)) + ", " +
           choice_name(exr_compression_choices, options.compression.value_or(io::exr::Compression::zip));
-  render::AovChoice aovs = options.aovs;
-  for (const AovName& aov : aov_names)
-    if (aov.wanted(aovs)) text += fmt::format(", {}", aov.name);
+  if (options.aovs.any()) text += ", " + session::aov_words(options.aovs);
   return text + ")";
 }
 

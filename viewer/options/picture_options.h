@@ -34,14 +34,6 @@ Expected<void> read_pictures(const std::string& text, PictureOptions& options);
 Expected<void> read_format(const std::string& text, const std::vector<std::string_view>& known,
                            PictureOptions& options);
 std::vector<std::string> format_words(const PictureOptions& options);
-Expected<render::AovChoice> parse_aovs(const std::string& text);  ///< "depth,id"
-std::string aov_words(render::AovChoice aovs);
-
-/// Adds --aov alone, for callers that keep the pictures themselves.
-void add_aov_option(CLI::App& command, render::AovChoice& aovs);
-
-/// Fails if `settings` do not compute what `aovs` need.
-Expected<void> check_aovs(const render::AovChoice& aovs, const render::RenderSettings& settings);
 
 /// Sets what follows from other options. To be called once all are read.
 void settle_picture_options(PictureOptions& options);

@@ -4,6 +4,7 @@
 #include "options/config_file.h"
 #include "options/output_table.h"
 #include "options/raster_options.h"
+#include "session/aovs.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -133,7 +134,7 @@ Expected<void> check_pictures(const RenderOptions& options, bool several) {
   const PictureOptions& pictures = options.pictures;
   if (auto checked = check_picture_options(pictures); !checked) return checked;
   if (pictures.to_pipe) return check_pipe(options);
-  if (auto checked = check_aovs(pictures.aovs, options.method.render); !checked) return checked;
+  if (auto checked = session::check_aovs(pictures.aovs, options.method.render); !checked) return checked;
   return pictures.files ? check_pattern(*pictures.files, "-o", several) : Expected<void>();
 }
 

@@ -53,7 +53,7 @@ void PresampledOcclusion::end_frame(AoStats& stats, std::vector<std::string>& no
     noted_memory_ = true;
     notes.push_back(
         fmt::format("A frame's fields and surface samples found no room within {} MB: rays are cast for "
-                    "bodies without room, which takes longer; --ao-memory gives more.",
+                    "bodies without room, which takes longer; --memory ao:gives more.",
                     memory_mb_));
   }
   for (std::string& note : occluders_.fields().take_notes()) notes.push_back(std::move(note));

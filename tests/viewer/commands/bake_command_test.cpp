@@ -100,7 +100,7 @@ TEST(BakeCommand, FailsInOneSentence) {
   says({scene, "-o", out, "--light", "4"}, "the scene has 1 lights");
   says({scene, "-o", out, "--ambient", "-1,0,0"}, "0 or more");
   says({TENEBRA_SCENES_DIR "/court.glb", "-o", out, "--what", "light", "--shadows", "soft", "--light-size",
-        "1", "--soft-memory", "1"},
+        "1", "--memory", "soft:1"},
        "not enough memory for soft shadows");
   says({write_dark_scene(folder), "-o", out}, "found no light");
   const std::string mapped = write_mapped_scene(folder);

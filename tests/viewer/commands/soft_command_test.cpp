@@ -74,9 +74,9 @@ TEST(SoftCommand, WritesTheVisibleFractionInEightAndThirtyTwoBits) {
   EXPECT_GT(logged(folder / "log.csv", "query_ms") + logged(folder / "log.csv", "shaft_ms"), 0);
   EXPECT_EQ(logged(folder / "log.csv", "rays"), 0) << "no hard shadows beside";
   const std::string log = read_text(folder / "log.csv");
-  for (const char* setting : {"# shadows: soft\n", "# soft_solver: auto\n",
-                              "# soft_grouping: neighbourhood\n", "# soft_choice: largest\n",
-                              "# soft_precision: fast\n", "# light_size: 1.5x0.5 m\n", "# ao: none\n"}) {
+  for (const char* setting :
+       {"# shadows: soft\n", "# soft_solver: auto\n", "# soft_grouping: neighbourhood\n",
+        "# soft_choice: largest\n", "# soft_precision: fast\n", "# light_size: 1.5x0.5\n", "# ao: none\n"}) {
     EXPECT_NE(log.find(setting), std::string::npos) << setting << log;
   }
   for (const char* stage : {"shaft", "query"}) {
@@ -249,7 +249,7 @@ TEST(SoftCommand, SaysOnceThatGroupsChangedTheirSolver) {
       << standard.errors;
   EXPECT_NE(read_text(folder / "log.csv").find("soft_memory: the system's, 4 MB a tree"), std::string::npos);
 
-  const auto refused = draw({"--soft-memory", "2"});
+  const auto refused = draw({"--memory", "soft:2"});
   EXPECT_EQ(refused.exit_code, 1);
   EXPECT_NE(refused.errors.find("2 MB are allowed and points that are solved together need at least"),
             std::string::npos)

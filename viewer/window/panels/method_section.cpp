@@ -87,7 +87,7 @@ void settle_soft(MethodOptions& method) {
   method.cull_front.reset();
 }
 
-/// 0: as it is without --soft-memory.
+/// 0: as it is without --memory soft:MB.
 void limit_soft_memory(int mb, SoftShadowConfig& soft) {
   soft.memory_bytes.reset();
   soft.tree_bytes = SoftShadowConfig{}.tree_bytes;
