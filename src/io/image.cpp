@@ -155,52 +155,6 @@ Expected<Image8> read_png(const std::filesystem::path& path) {
   return image;
 }
 
-namespace {
-
-/// Fewer bytes than this cannot hold the rows of a Radiance picture: 4 for each pixel, or for rows of 8 to
-/// 32767 pixels runs of up to 127 values in each of four channels.
-std::uint64_t least_hdr_bytes(std::uint64_t width, std::uint64_t height) {
-  const bool has_runs = width >= 8 && width < 32768;
-  return height * (has_runs ? std::min(4 * width, 4 + 8 * ((width + 126) / 127)) : 4 * width);
-}
-
-}  // namespace
-
-Expected<ImageF> read_hdr(const std::filesystem::path& path) {
-  const auto bytes = read_bytes(path);
-  if (!bytes) return tl::unexpected(bytes.error());
-  const auto* const data = reinterpret_cast<const stbi_uc*>(bytes->data());
-  const int size = static_cast<int>(bytes->size());
-  ImageF image{0, 0, 3, {}};
-  int channels = 0;
-  if (stbi_is_hdr_from_memory(data, size) == 0 ||
-      stbi_info_from_memory(data, size, &image.width, &image.height, &channels) == 0) {
-    return base::fail("{}: found no Radiance picture, expected one that starts with #?RADIANCE or #?RGBE",
-                      path.string());
-  }
-  constexpr std::uint64_t most_hdr_pixels = std::uint64_t{1} << 26;
-  const std::uint64_t count =
-      static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
-  if (image.width < 1 || image.height < 1 || count > most_hdr_pixels) {
-    return base::fail("{}: found {} x {} pixels, expected 1 to 2^26", path.string(), image.width,
-                      image.height);
-  }
-  if (const std::uint64_t least =
-          least_hdr_bytes(static_cast<std::uint64_t>(image.width), static_cast<std::uint64_t>(image.height));
-      bytes->size() < least) {
-    return base::fail("{}: found {} bytes, expected at least {} for its {} x {} pixels", path.string(),
-                      bytes->size(), least, image.width, image.height);
-  }
-  const std::unique_ptr<float, void (*)(void*)> decoded(
-      stbi_loadf_from_memory(data, size, &image.width, &image.height, &channels, 3), stbi_image_free);
-  if (decoded == nullptr) {
-    return base::fail("{}: cannot decode its {} x {} pixels, or not enough memory", path.string(),
-                      image.width, image.height);
-  }
-  image.pixels.assign(decoded.get(), decoded.get() + 3 * count);
-  return image;
-}
-
 Expected<void> write_pfm(const std::filesystem::path& path, const ImageF& image) {
   static_assert(std::endian::native == std::endian::little, "the scale -1 announces little-endian floats");
   const bool has_pfm_channels = image.channels == 1 || image.channels == 3;

@@ -29,7 +29,8 @@ using ImageF = Image<float>;         ///< linear values
 Expected<void> write_png(const std::filesystem::path& path, const Image8& image);
 /// Reads an 8-bit PNG as stored (1 to 4 channels). Refuses what is not a PNG and more than 2^28 pixels.
 Expected<Image8> read_png(const std::filesystem::path& path);
-/// Reads a Radiance picture (.hdr): three linear channels. Refuses what is none and more than 2^26 pixels.
+/// Reads a Radiance picture (.hdr; RGBE or XYZE, pixels in any order, in runs or not): three linear channels,
+/// with EXPOSURE and COLORCORR undone. Refuses what is none or damaged, and more than 2^26 pixels.
 Expected<ImageF> read_hdr(const std::filesystem::path& path);
 /// The bytes that write_png writes.
 Expected<std::string> encode_png(const Image8& image);

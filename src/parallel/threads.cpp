@@ -3,15 +3,23 @@
 
 #include <tenebra/threads.h>
 
+#include <algorithm>
+
 namespace tenebra {
+namespace {
+
+constexpr int most_threads = 1024;  // a thread takes memory and time, and no machine has more cores
+
+}  // namespace
 
 void with_threads(int threads, const std::function<void()>& body) {
   if (threads <= 0) {
     body();
     return;
   }
-  tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
+  const int used = std::min(threads, most_threads);
+  tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(used));
+  tbb::task_arena arena(used);
   arena.execute(body);
 }
 

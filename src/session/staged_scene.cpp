@@ -7,6 +7,7 @@
 
 #include "base/fail.h"
 #include "session/auto_exposure.h"
+#include "session/environment_picture.h"
 #include "session/viewpoint.h"
 #include "stage/cutout/cutout.h"
 #include "stage/default_light.h"
@@ -93,7 +94,7 @@ Expected<StagedScene> read(const SceneSettings& settings) {
   if (settings.transfer) staged.scene.transfer = *settings.transfer;
   staged.fps = settings.fps;
   if (settings.environment.empty()) return staged;
-  auto picture = io::read_hdr(settings.environment);
+  auto picture = read_environment(settings.environment);
   if (!picture) return base::fail("--environment: {}", picture.error().message);
   staged.environment = std::move(*picture);
   staged.inputs.emplace_back(settings.environment);

@@ -134,7 +134,8 @@ void add_looks(SceneRows& rows) {
   rows.push_back(SceneRow::text(
       {.name = "environment",
        .value = "FILE",
-       .help = "Radiance picture (.hdr, equirectangular) of the scene's surroundings: its background, its "
+       .help = "Radiance or OpenEXR picture (.hdr, .exr; equirectangular) of the scene's surroundings: its "
+               "background, its "
                "ambient light and what metals mirror"},
       [](auto& scene) -> auto& { return scene.environment; }));
   rows.push_back(SceneRow::words(

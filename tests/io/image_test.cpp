@@ -203,38 +203,6 @@ TEST(Pfm, ReadsBackBitForBitBottomRowFirst) {
   }
 }
 
-// One byte each for red, green, blue and a shared exponent: value = byte * 2^(exponent - 136).
-TEST(Hdr, ReadsLinearValues) {
-  const TemporaryFolder folder;
-  const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 3\n";
-  const std::string pixels(
-      "\x80\x40\x00\x81"
-      "\xff\x01\x02\x88"
-      "\x00\x00\x00\x00",
-      12);
-  write_text(folder / "a.hdr", header + pixels);
-  const auto image = io::read_hdr(folder / "a.hdr");
-  ASSERT_TRUE(image) << image.error().message;
-  EXPECT_EQ(image->width, 3);
-  EXPECT_EQ(image->height, 1);
-  EXPECT_EQ(image->channels, 3);
-  EXPECT_EQ(image->pixels, (std::vector<float>{1, 0.5f, 0, 255, 1, 2, 0, 0, 0}));
-}
-
-TEST(Hdr, RefusesWhatIsNoneAndWhatIsTooLarge) {
-  const TemporaryFolder folder;
-  write_text(folder / "text.hdr", "hello");
-  write_text(folder / "empty.hdr", "");
-  write_text(folder / "bomb.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 20000 +X 20000\n");
-  write_text(folder / "short.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 100 +X 100\nab");
-  EXPECT_TRUE(io::write_png(folder / "a.png", random_image(2, 2, 3, 1)));
-  for (const char* name : {"text.hdr", "empty.hdr", "bomb.hdr", "short.hdr", "a.png", "missing.hdr"}) {
-    const auto image = io::read_hdr(folder / name);
-    ASSERT_FALSE(image) << name;
-    EXPECT_NE(image.error().message.find(name), std::string::npos) << image.error().message;
-  }
-}
-
 TEST(Pfm, ReadsBigEndianFloats) {
   const TemporaryFolder folder;
   write_text(folder / "a.pfm", "Pf\n2 1\n1.0\n" + big_endian(0x3f800000) + big_endian(0xc0200000));

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <thread>
 
+#include "io/exr/exr_file.h"
 #include "io/image.h"
 #include "render/log/frame_log.h"
 #include "viewer/viewer_test_scene.h"
@@ -140,6 +141,16 @@ TEST(RenderCommand, TransfersAndEnvironmentsArePutIntoThePicture) {
   const io::Image8 toned = drawn({"--environment", picture_of_all});
   EXPECT_GT(count_of(toned, 126), count_of(srgb, 126) + 300);
   EXPECT_EQ(toned, drawn({"--environment", picture_of_all, "--tone", "neutral"}));
+  const std::vector<float> quarter{0.25f};
+  const auto channel = [&](const char* name) { return io::exr::Channel{name, io::exr::Floats{quarter}}; };
+  const auto exr = io::exr::encode({.width = 1,
+                                    .height = 1,
+                                    .channels = {channel("R"), channel("G"), channel("B")},
+                                    .camera = {},
+                                    .texts = {}});
+  ASSERT_TRUE(exr) << exr.error().message;
+  write_text(folder / "grey.exr", *exr);
+  EXPECT_EQ(drawn({"--environment", folder / "grey.exr", "--tone", "none"}), grey);
   const io::Image8 grey_display = drawn({"--environment", picture_of_all, "--transfer", "display"});
   EXPECT_GT(count_of(grey_display, 64), count_of(display, 64) + 300);
 }
