@@ -1,19 +1,22 @@
 // The program `tenebra`: picks the command, and turns every failure into one sentence and an exit code.
 
-#include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <span>
 #include <string>
+#include <vector>
 
 #include "commands/command.h"
 #include "options/options_page.h"
 #include "options/setting_options.h"
+#include "settings/nearest_word.h"
 #include "shell/console.h"
 #include "shell/exit_codes.h"
+#include "shell/first_words.h"
 #include "shell/last_words.h"
 
 namespace {
@@ -29,10 +32,11 @@ constexpr const char* about =
 constexpr const char* first_steps =
     "First steps:\n"
     "  tenebra view                                      a window on the bundled city\n"
+    "  tenebra model.glb                                 a window on a scene of yours\n"
     "  tenebra info scenes/city.glb                      what a scene contains\n"
     "  tenebra render scenes/city.glb                    its first frame, to out/0000.png\n"
     "  tenebra render scenes/city.glb --frames all       the whole animation\n"
-    "  tenebra COMMAND --help                            the options of a command, with examples\n"
+    "  tenebra help COMMAND                              the options of a command, with examples\n"
     "\n"
     "Scenes: glTF 2.0 (.gltf, .glb), BART's AFF (.aff, .nff), Wavefront OBJ (.obj).\n"
     "A failure is one sentence on standard error and exit code 1 (2 from compare, 75 if memory runs out).";
@@ -42,10 +46,26 @@ int report(const std::string& sentence, int code) {
   return code;
 }
 
-/// What a command printed counts only once it is out: a full disk or a closed pipe shows here.
+/// What a command printed counts only once it is out: a full disk shows here. A reader that has gone, as
+/// `head` does, has what it wanted: nothing is said then.
 int flush_output(int code, int on_failure = failure) {
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  errno = 0;
+  const bool flushed = std::fflush(stdout) == 0;
+  if (!flushed && errno == EPIPE) return tenebra::viewer::exit_codes::reader_gone;
+  if (flushed && std::ferror(stdout) == 0) return code;
   return report("cannot write standard output: no space left, or its reader is gone", on_failure);
+}
+
+std::vector<std::string> names_of_commands(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands(nullptr)) names.push_back(command->get_name());
+  return names;
+}
+
+std::string unknown_command(const CLI::App& program, const std::string& word) {
+  const std::string nearest = tenebra::settings::nearest_word(word, names_of_commands(program));
+  if (!nearest.empty()) return fmt::format("unknown command '{}' (did you mean {}?)", word, nearest);
+  return fmt::format("found no command and no file '{}', expected {}, or a scene", word, commands);
 }
 
 /// " (did you mean --size?)" where an option was given that the command does not have.
@@ -54,16 +74,26 @@ std::string nearest_option(const CLI::App& program) {
   return tenebra::viewer::did_you_mean(*program.get_subcommands().front());
 }
 
-void warn_of_old_names(const CLI::App& program, std::span<char* const> arguments) {
+/// The sentence of `error`; what was not understood in the order in which it was typed.
+std::string refusal(const CLI::App& program, const CLI::ParseError& error) {
+  const std::vector<std::string> left = program.remaining(true);
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr || left.empty())
+    return tenebra::viewer::sentence_of(error);
+  return fmt::format(
+      "found {}, which {} does not know", fmt::join(left, " "),
+      program.get_subcommands().empty() ? "tenebra" : program.get_subcommands().front()->get_name());
+}
+
+void warn_of_old_names(const CLI::App& program, const std::vector<std::string>& arguments) {
   for (const CLI::App* command : program.get_subcommands())
     if (!tenebra::viewer::is_quiet(*command))
       tenebra::viewer::print_warnings(tenebra::viewer::outdated_uses(*command, arguments));
 }
 
-int parse_and_run(CLI::App& program, Run& run, int argc, char** argv) {
+int parse_and_run(CLI::App& program, Run& run, const std::vector<std::string>& arguments) {
   const auto failure_code = [&] { return program.got_subcommand("compare") ? comparison_failure : failure; };
   try {
-    program.parse(argc, argv);
+    program.parse({arguments.rbegin(), arguments.rend()});  // CLI11 takes the last one first
   } catch (const CLI::CallForHelp&) {
     // The help of the command that was asked about; CLI11 descends to it.
     tenebra::viewer::print_out("{}", program.help());
@@ -75,13 +105,12 @@ int parse_and_run(CLI::App& program, Run& run, int argc, char** argv) {
     tenebra::viewer::print_out("{}\n", version.what());
     return flush_output(0);
   } catch (const CLI::ParseError& error) {
-    const bool named = argc > 1 && argv[1][0] != '-';
-    if (named && program.get_subcommands().empty()) {
-      return report(fmt::format("unknown command '{}', expected {}", argv[1], commands), failure);
-    }
-    return report(tenebra::viewer::sentence_of(error) + nearest_option(program), failure_code());
+    const bool named = !arguments.empty() && !arguments.front().starts_with('-');
+    if (named && program.get_subcommands().empty())
+      return report(unknown_command(program, arguments.front()), failure);
+    return report(refusal(program, error) + nearest_option(program), failure_code());
   }
-  warn_of_old_names(program, {argv, static_cast<std::size_t>(argc)});
+  warn_of_old_names(program, arguments);
   if (!run) return report(fmt::format("give a command: {} (see tenebra --help)", commands), failure);
   try {
     const auto code = run();
@@ -125,7 +154,8 @@ int main(int argc, char** argv) {
       };
     };
     program.add_flag_callback("--options-page", print_page)->group("");  // for docs/options.md
-    return parse_and_run(program, run, argc, argv);
+    const auto names = names_of_commands(program);
+    return parse_and_run(program, run, tenebra::viewer::as_commands({argv + 1, argv + argc}, names));
   } catch (const std::exception& error) {
     if (!tenebra::viewer::is_memory_failure(error))
       return report(fmt::format("cannot start ({})", error.what()), failure);

@@ -73,6 +73,31 @@ TEST(Program, SuggestsTheNearestOption) {
          "--paper variant: found Fast, expected Tiles, Precise");
 }
 
+TEST(Program, SaysWhatItDoesNotKnowInTheOrderTyped) {
+  EXPECT_NE(tenebra({"render", "a.glb", "--shadow", "soft"})
+                .errors.find("found --shadow soft, which render does not know"),
+            std::string::npos)
+      << tenebra({"render", "a.glb", "--shadow", "soft"}).errors;
+  EXPECT_NE(tenebra({"rendr", "a.glb"}).errors.find("unknown command 'rendr' (did you mean render?)"),
+            std::string::npos);
+  EXPECT_NE(tenebra({"no-such-scene.glb"}).errors.find("found no command and no file 'no-such-scene.glb'"),
+            std::string::npos);
+}
+
+TEST(Program, HelpsThoseWhoAskInOtherWords) {
+  EXPECT_EQ(tenebra({"help"}).output, tenebra({"--help"}).output);
+  EXPECT_EQ(tenebra({"help", "render"}).output, tenebra({"render", "--help"}).output);
+  EXPECT_EQ(tenebra({"-V"}).output, tenebra({"--version"}).output);
+  EXPECT_EQ(tenebra({"-V"}).exit_code, 0);
+}
+
+TEST(Program, OpensAFileThatIsNamedAlone) {
+  const TemporaryFolder folder;
+  const std::string scene = write_moving_scene(folder);
+  EXPECT_EQ(tenebra({scene, "--no-such"}).errors, tenebra({"view", scene, "--no-such"}).errors);
+  EXPECT_NE(tenebra({scene, "--no-such"}).errors.find("which view does not know"), std::string::npos);
+}
+
 TEST(Program, TakesOldNamesAndSaysTheNewOnes) {
   const TemporaryFolder folder;
   const std::string scene = write_moving_scene(folder);

@@ -165,7 +165,7 @@ std::string outdated_sentence(const std::string& name) {
                      settings::given_as(*about_of(name)));
 }
 
-std::vector<std::string> outdated_uses(const CLI::App& command, std::span<char* const> arguments) {
+std::vector<std::string> outdated_uses(const CLI::App& command, std::span<const std::string> arguments) {
   std::vector<std::string> sentences;
   for (const std::string_view argument : arguments) {
     if (!argument.starts_with("--")) continue;

@@ -56,7 +56,7 @@ bool is_outdated(const CLI::Option& option);
 /// Which name took the place of the old one.
 std::string outdated_sentence(const std::string& name);
 /// The same for each old name of `command` among `arguments`.
-std::vector<std::string> outdated_uses(const CLI::App& command, std::span<char* const> arguments);
+std::vector<std::string> outdated_uses(const CLI::App& command, std::span<const std::string> arguments);
 /// Whether the user wants no warnings.
 bool is_quiet(const CLI::App& command);
 

@@ -7,7 +7,8 @@ inline constexpr int failed = 1;             ///< would fail again: a wrong opti
 inline constexpr int comparison_failed = 2;  ///< `tenebra compare` says with 1 that pictures differ
 /// A file could not be written, or no memory is left: try again once there is room.
 inline constexpr int outputs_failed = 75;
-inline constexpr int timed_out = 124;  ///< as timeout(1) has it
+inline constexpr int timed_out = 124;    ///< as timeout(1) has it
+inline constexpr int reader_gone = 141;  ///< as if by SIGPIPE: `tenebra info SCENE | head`
 
 /// By convention: 130 for SIGINT, 143 for SIGTERM.
 constexpr int of_signal(int signal) {
