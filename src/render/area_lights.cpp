@@ -34,14 +34,17 @@ dvec3 facing_direction(const Light& light, const WorldLight& placed, const AreaL
 glm::dvec2 point_size_m(int light, const AreaLightSettings& settings, const math::Box<double>& box) {
   const auto index = static_cast<std::size_t>(light);
   if (index < settings.own_size_m.size() && settings.own_size_m[index]) return *settings.own_size_m[index];
-  return (settings.percent_of_diagonal ? 0.01 * box.diagonal() : 1.0) * glm::dvec2(settings.size);
+  const double percent_m = 0.01 * box.diagonal();
+  if (settings.size == glm::vec2(0.0f)) return glm::dvec2(percent_m * settings.unsized_percent);
+  return (settings.percent_of_diagonal ? percent_m : 1.0) * glm::dvec2(settings.size);
 }
 
 /// Degrees: the light's own setting, else the one for all lights, else the scene's.
 float sun_diameter(const Light& light, int number, const AreaLightSettings& settings) {
   const auto index = static_cast<std::size_t>(number);
   if (index < settings.own_sun_deg.size() && settings.own_sun_deg[index]) return *settings.own_sun_deg[index];
-  return settings.sun_deg.value_or(light.diameter_deg);
+  const float of_scene = light.diameter_deg > 0 ? light.diameter_deg : settings.unsized_sun_deg;
+  return settings.sun_deg.value_or(of_scene);
 }
 
 Expected<AreaLight> rectangle_of_point(const Light& light, const WorldLight& placed,

@@ -18,8 +18,8 @@ math::Box<double> box_of(const FrameGeometry& geometry);
 /// The polygon of a light: area lights as the file has them; point and spot lights as rectangles of the
 /// settings' size, or their own, about their place, facing `settings.facing`, else along a spot's axis or
 /// from a point towards the box's centre, their width level; directional lights as suns of the settings'
-/// diameter, or their own. None where no size is given. Fails with a sentence where the polygon is none: no
-/// area, not finite.
+/// diameter, or their own; those without a size as settings.unsized_... say. None where no size is given.
+/// Fails with a sentence where the polygon is none: no area, not finite.
 Expected<std::optional<AreaLight>> area_light_of(const Light& light, const WorldLight& placed,
                                                  const AreaLightSettings& settings,
                                                  const math::Box<double>& box);

@@ -39,6 +39,37 @@ void give_area(DrawnLight& drawn, const AreaLightSettings& settings, const math:
   }
 }
 
+bool has_own(const auto& list, int number) {
+  const auto index = static_cast<std::size_t>(number);
+  return index < list.size() && list[index].has_value();
+}
+
+/// Names the sizes that lights without one got.
+void note_sizes(const std::vector<DrawnLight>& lights, const AreaLightSettings& settings,
+                const math::Box<double>& box, std::vector<std::string>& notes) {
+  bool points = false, suns = false;
+  for (const DrawnLight& drawn : lights) {
+    const bool sun = drawn.light.type == LightType::directional;
+    const bool point = drawn.light.type == LightType::point || drawn.light.type == LightType::spot;
+    if (!drawn.area || drawn.light.intensity == 0) continue;
+    points |= point && settings.size == glm::vec2(0.0f) && !has_own(settings.own_size_m, drawn.number);
+    suns |= sun && drawn.light.diameter_deg == 0 && !settings.sun_deg &&
+            !has_own(settings.own_sun_deg, drawn.number);
+  }
+  if (points)
+    notes.push_back(
+        fmt::format("point lights have no size: {:.3g} m were taken, {:g} % of the scene's diagonal "
+                    "(--light-size sets it, "
+                    "0 keeps hard shadows)",
+                    0.01 * settings.unsized_percent * box.diagonal(), settings.unsized_percent));
+  if (suns)
+    notes.push_back(
+        fmt::format("directional lights have no size: {:g} degrees were taken, the sun's (--sun-size sets "
+                    "it, 0 keeps hard "
+                    "shadows)",
+                    settings.unsized_sun_deg));
+}
+
 /// A polygon of the scene that is the face of a lamp which `lights` already hold.
 bool is_face_of_a_light(const AreaLight& polygon, const std::vector<DrawnLight>& lights) {
   for (const DrawnLight& drawn : lights) {
@@ -99,6 +130,7 @@ Expected<std::vector<DrawnLight>> drawn_lights(const Scene& scene, const FrameIn
       const bool asked = drawn.light.intensity != 0 && (settings.light < 0 || settings.light == drawn.number);
       give_area(drawn, settings.area_lights, box, asked ? notes : unasked);
     }
+    note_sizes(lights, settings.area_lights, box, notes);
     if (settings.area_lights.emissive_quads) add_emissive(scene, input, lights, notes);
   }
   if (settings.light >= static_cast<int>(lights.size())) {

@@ -52,7 +52,9 @@ struct AreaLightSettings {
   /// By Scene::lights: width and height in metres of the point and spot lights that have their own, beside
   /// `size`; may be shorter.
   std::vector<std::optional<glm::vec2>> own_size_m;
-  std::optional<float> sun_deg;                   ///< diameter of directional lights, in place of the scene's
+  std::optional<float> sun_deg;  ///< diameter of directional lights, in place of the scene's
+  float unsized_percent = 0;  ///< width and height of point and spot lights without a size: of the diagonal
+  float unsized_sun_deg = 0;  ///< diameter of directional lights without one
   std::vector<std::optional<float>> own_sun_deg;  ///< as own_size_m, of directional lights, in place of all
 };
 

@@ -10,7 +10,8 @@ namespace {
 
 constexpr int longer_side_px = 160, intervals = 8;
 constexpr std::size_t pixels_to_one_bright = 100;
-constexpr float bright = 0.95f;
+constexpr double most_bright = 0.05, most_dark = 0.5;  // shares of a picture that an exposure of 1 may leave
+constexpr float bright = 0.95f, dark = 0.01f;
 constexpr int steps_to_double = 8, least_step = -12 * steps_to_double, most_step = 6 * steps_to_double;
 
 /// 2^(step / 8): the same float on every machine.
@@ -24,13 +25,27 @@ float exposure_of(int step) {
 /// Linear colours of what pixels see; those that see nothing are left out.
 using Colors = std::vector<glm::vec3>;
 
-bool too_bright(const Colors& colors, const shade::Display& display) {
-  std::size_t found = 0;
-  for (const glm::vec3& color : colors) {
+/// Pixels whose brightest channel is shown above a level.
+std::size_t count_above(const Colors& colors, const shade::Display& display, float level) {
+  return static_cast<std::size_t>(std::count_if(colors.begin(), colors.end(), [&](const glm::vec3& color) {
     const glm::vec3 shown = shade::shown(display, color);
-    found += std::max(std::max(shown.x, shown.y), shown.z) > bright;
-  }
-  return found * pixels_to_one_bright > colors.size();
+    return std::max(std::max(shown.x, shown.y), shown.z) > level;
+  }));
+}
+
+bool too_bright(const Colors& colors, const shade::Display& display) {
+  return count_above(colors, display, bright) * pixels_to_one_bright > colors.size();
+}
+
+bool shows_well(const std::vector<Colors>& pictures, const shade::Display& display) {
+  const auto share = [&](const Colors& colors, float level) {
+    return static_cast<double>(count_above(colors, display, level)) / static_cast<double>(colors.size());
+  };
+  const bool clipped = std::any_of(pictures.begin(), pictures.end(),
+                                   [&](const Colors& colors) { return share(colors, bright) > most_bright; });
+  const bool crushed = std::all_of(pictures.begin(), pictures.end(),
+                                   [&](const Colors& colors) { return 1 - share(colors, dark) > most_dark; });
+  return pictures.empty() || (!clipped && !crushed);
 }
 
 /// The largest step with which none of the pictures is too bright.
@@ -78,8 +93,14 @@ std::vector<double> metered_times(const StagedScene& staged) {
 
 }  // namespace
 
-Expected<settings::AutoExposures> meter_exposures(const StagedScene& staged,
-                                                  const settings::SceneSettings& settings) {
+settings::AutoExposures Meter::exposures(int fewer) const {
+  settings::AutoExposures found;
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    found[i] = exposure_of(std::max(steps[i] - fewer, least_step));
+  return found;
+}
+
+Expected<Meter> meter(const StagedScene& staged, const settings::SceneSettings& settings) {
   // It lasts no longer than `staged`.
   const std::shared_ptr<const StagedScene> unowned(std::shared_ptr<const StagedScene>(), &staged);
   auto session = Session::open(unowned, settings.edits, {.kind = render::RasterKind::cpu});
@@ -95,10 +116,19 @@ Expected<settings::AutoExposures> meter_exposures(const StagedScene& staged,
     Colors colors = seen_colors(drawn, staged.environment.has_value());
     if (!colors.empty()) pictures.push_back(std::move(colors));
   }
-  settings::AutoExposures found;
+  Meter found;
   for (const shade::Tone tone : shade::tones)
-    found[static_cast<std::size_t>(tone)] = pictures.empty() ? 1.0f : exposure_of(step_for(pictures, tone));
+    if (!pictures.empty()) found.steps[static_cast<std::size_t>(tone)] = step_for(pictures, tone);
+  const bool linear = staged.display.transfer == Transfer::srgb;
+  found.one_will_do = shows_well(pictures, {.tone = linear ? shade::Tone::neutral : shade::Tone::none});
   return found;
+}
+
+Expected<settings::AutoExposures> meter_exposures(const StagedScene& staged,
+                                                  const settings::SceneSettings& settings) {
+  const auto metered = meter(staged, settings);
+  if (!metered) return tl::unexpected(metered.error());
+  return metered->exposures();
 }
 
 }  // namespace tenebra::session

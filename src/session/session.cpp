@@ -50,6 +50,7 @@ void Session::edit(const stage::SceneEdits& edits) {
 void Session::place(int clip, double time_s, const ViewRays& view) {
   base::Stopwatch watch;
   evaluate(staged_->scene, edits_, clip, time_s, input_);
+  stage::hide_floor_from_below(staged_->added, view.eye.y, input_.geometry);
   input_.view = view;
   evaluate_ms_ = watch.lap_ms();
 }

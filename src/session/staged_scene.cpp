@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "base/fail.h"
-#include "session/auto_exposure.h"
+#include "session/brightness.h"
 #include "session/environment_picture.h"
 #include "session/viewpoint.h"
 #include "stage/cutout/cutout.h"
@@ -101,10 +101,13 @@ Expected<StagedScene> read(const SceneSettings& settings) {
   return staged;
 }
 
-void add_missing_parts(const SceneSettings& settings, StagedScene& staged) {
+void add_missing_parts(const SceneSettings& settings, Staging staging, StagedScene& staged) {
   // The camera is the same whatever --size is.
-  staged.added =
-      stage::add_missing_parts(staged.scene, {.floor = settings.floor && !staged.environment, .aspect = {}});
+  const stage::Additions wish{.floor = settings.floor && !staged.environment,
+                              .aspect = {},
+                              .sky = wanted_sun(settings, staged.scene, staged.environment.has_value()),
+                              .for_pictures = staging == Staging::for_pictures};
+  staged.added = stage::add_missing_parts(staged.scene, wish);
   const bool in_the_open = staged.added.light && !staged.added.lamp;
   if (in_the_open && !staged.environment) staged.environment = stage::soft_sky();
 }
@@ -140,7 +143,8 @@ Expected<StagedScene> stage_scene(const SceneSettings& settings, Staging staging
   if (!staged) return staged;
   Scene& scene = staged->scene;
   stage::leave_out_blank_emission(scene);  // before a floor is added, which is not blank
-  if (staging == Staging::for_pictures) add_missing_parts(settings, *staged);
+  const bool stated = states_surroundings(scene);
+  add_missing_parts(settings, staging, *staged);
   number_lights(scene);
   stage::cut_out_masks(scene, {.most_added = static_cast<std::size_t>(settings.cutout_limit)});
   if (settings.plain) stage::make_plain(scene);
@@ -149,10 +153,8 @@ Expected<StagedScene> stage_scene(const SceneSettings& settings, Staging staging
     return tl::unexpected(checked.error());
   if (auto chosen = choose_view(settings, *staged); !chosen) return tl::unexpected(chosen.error());
   staged->display.transfer = scene.transfer;
-  if (!settings.meter_exposure) return staged;
-  const auto exposures = meter_exposures(*staged, settings);
-  if (!exposures) return tl::unexpected(exposures.error());
-  staged->display.exposures = *exposures;
+  if (auto settled = settle_brightness(settings, stated, *staged); !settled)
+    return tl::unexpected(settled.error());
   return staged;
 }
 

@@ -36,7 +36,7 @@ struct StagedScene {
 /// What a scene gets that its file lacks.
 enum class Staging {
   for_pictures,  ///< what stage::add_missing_parts adds: there is a camera, and light
-  as_it_is       ///< nothing
+  for_light      ///< the same light, and no floor; stage::remove_added takes the rest out
 };
 
 /// Reads the file of the settings and fits them to it. Fails on what the scene does not have.

@@ -8,6 +8,7 @@
 #include "base/fail.h"
 #include "render/renderer.h"
 #include "settings/text_values.h"
+#include "stage/additions.h"
 
 namespace tenebra::settings {
 
@@ -23,6 +24,9 @@ inline constexpr std::array shadow_choices{Choice<render::ShadowMode>{"none", re
 inline constexpr std::array see_through_choices{Choice<SeeThrough>{"tint", SeeThrough::tint},
                                                 Choice<SeeThrough>{"cast", SeeThrough::cast},
                                                 Choice<SeeThrough>{"ignore", SeeThrough::ignore}};
+inline constexpr std::array sky_choices{
+    Choice<stage::Sky>{"auto", stage::Sky::automatic}, Choice<stage::Sky>{"none", stage::Sky::none},
+    Choice<stage::Sky>{"soft", stage::Sky::soft}, Choice<stage::Sky>{"sun", stage::Sky::sun}};
 inline constexpr std::array tone_choices{Choice<shade::Tone>{"none", shade::Tone::none},
                                          Choice<shade::Tone>{"neutral", shade::Tone::neutral},
                                          Choice<shade::Tone>{"aces", shade::Tone::aces}};

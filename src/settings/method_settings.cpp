@@ -86,10 +86,18 @@ shade::Tone tone_of(const MethodSettings& method, Transfer transfer) {
   return method.tone.value_or(transfer == Transfer::srgb ? shade::Tone::neutral : shade::Tone::none);
 }
 
+bool takes_measured_exposure(const MethodSettings& method, const SceneDisplay& display) {
+  return display.exposures && (method.auto_exposure || (display.needs_exposure && !method.exposure_given));
+}
+
+bool makes_emissive_lights(const MethodSettings& method) {
+  return method.render.area_lights.emissive_quads && method.render.shadows == render::ShadowMode::soft;
+}
+
 render::RenderSettings render_settings(const MethodSettings& method, Size size, const SceneDisplay& display) {
   render::RenderSettings render = method.render;
   render.tone = tone_of(method, display.transfer);
-  if (method.auto_exposure && display.exposures)
+  if (takes_measured_exposure(method, display))
     render.exposure = (*display.exposures)[static_cast<std::size_t>(render.tone)];
   render.width = size.width;
   render.height = size.height;
@@ -102,10 +110,12 @@ render::RenderSettings render_settings(const MethodSettings& method, Size size, 
       from_depth ? render::Terminator::flat : method.terminator.value_or(render::Terminator::smooth);
   render.soft.simd = render.ao.simd = render.hard.simd;
   render.area_lights.emission = method.light_emission;
-  if (method.light_size) {
-    render.area_lights.size = method.light_size->size;
-    render.area_lights.percent_of_diagonal = method.light_size->percent;
-  }
+  const LightSize given = method.light_size.value_or(LightSize{});
+  render.area_lights.size = given.size;
+  render.area_lights.percent_of_diagonal = given.percent;
+  const bool hard = method.light_size && given.size == glm::vec2(0.0f);
+  render.area_lights.unsized_percent = hard ? 0 : unsized_percent;
+  render.area_lights.unsized_sun_deg = hard ? 0 : unsized_sun_deg;
   return render;
 }
 
@@ -116,6 +126,7 @@ MethodSettings settled(MethodSettings method, const render::RenderSettings& rend
   method.light_emission = render.area_lights.emission;
   method.tone = render.tone;
   method.auto_exposure = false;
+  method.exposure_given = true;
   return method;
 }
 

@@ -23,20 +23,25 @@ using AutoExposures = std::array<float, shade::tones.size()>;
 struct SceneDisplay {
   Transfer transfer = Transfer::srgb;
   std::optional<AutoExposures> exposures;  ///< none: not measured
+  bool needs_exposure = false;             ///< pictures take them where the user gives no exposure
 };
 
 /// RenderSettings of pictures: anti-aliased, with a folder for what is kept between runs.
 render::RenderSettings standard_render();
 
+/// For soft shadows: of point and spot lights without a size, in percent of the scene's diagonal; of suns.
+inline constexpr float unsized_percent = 1, unsized_sun_deg = 0.53f;
+
 struct MethodSettings {
   render::RenderSettings render = standard_render();  ///< but for its size, tone and emission
   std::optional<Quality> quality;                     ///< as given; settle_quality turns it into settings
   std::optional<bool> cull_front;                     ///< not given: as the samples need it
-  std::optional<LightSize> light_size;                ///< not given: points stay points
+  std::optional<LightSize> light_size;                ///< not given: unsized_percent; 0: hard shadows
   std::optional<render::Terminator> terminator;       ///< not given: smooth
   render::LightEmission light_emission = render::LightEmission::point;  ///< in place of render's
   std::optional<shade::Tone> tone;  ///< not given: neutral for linear colours, none for display values
   bool auto_exposure = false;       ///< SceneDisplay::exposures, where measured, in place of render's
+  bool exposure_given = false;      ///< render's exposure is the user's: the scene has no say
 
   bool operator==(const MethodSettings& other) const;  ///< all settings of the table are the same
 };
@@ -56,6 +61,12 @@ std::vector<std::string> idle_sentences(const Given& given, const MethodSettings
 
 /// The tone of pictures with that transfer.
 shade::Tone tone_of(const MethodSettings& method, Transfer transfer);
+
+/// Whether pictures take SceneDisplay::exposures.
+bool takes_measured_exposure(const MethodSettings& method, const SceneDisplay& display);
+
+/// Whether emissive meshes are lights.
+bool makes_emissive_lights(const MethodSettings& method);
 
 /// The settings of a frame of `size`.
 render::RenderSettings render_settings(const MethodSettings& method, Size size, const SceneDisplay& display);

@@ -15,20 +15,25 @@ constexpr std::array quality_choices{Choice<Quality>{"fast", Quality::fast},
 Setting<MethodSettings> exposure() {
   const auto read = [](MethodSettings& method, const std::string& text) -> Expected<void> {
     method.auto_exposure = is_word(text, "auto");
+    method.exposure_given = false;
     if (method.auto_exposure) return {};
     const auto factor = parse_factor(text);
     if (!factor) return base::fail("{}, or auto", factor.error().message);
     method.render.exposure = *factor;
+    method.exposure_given = true;
     return {};
   };
   const auto texts = [](const MethodSettings& method) -> std::vector<std::string> {
-    return {method.auto_exposure ? "auto" : fmt::format("{}", method.render.exposure)};
+    if (method.auto_exposure) return {"auto"};
+    if (!method.exposure_given) return {};
+    return {fmt::format("{}", method.render.exposure)};
   };
   return MethodRow::own({.name = "exposure",
                          .value = "E|auto",
                          .help = "Multiplies all light by this factor; auto: by one that leaves at most a "
                                  "hundredth of the pixels too bright, the same for the whole animation",
-                         .range = {0.01, 100}},
+                         .standard = "1; auto where lights have units, or 1 shows too much or too little",
+                         .range = {1e-4, 100}},
                         read, texts);
 }
 

@@ -13,9 +13,12 @@ SceneSettings settings_for(const std::string& file, const SceneSettings& before)
   scene.cast_all = before.cast_all;
   scene.transfer = before.transfer;
   scene.environment = before.environment;
+  scene.sky = before.sky;
   scene.floor = before.floor;
   scene.plain = before.plain;
   scene.meter_exposure = before.meter_exposure;
+  scene.exposure_given = before.exposure_given;
+  scene.emissive_lights = before.emissive_lights;
   scene.fps = before.fps;
   return scene;
 }

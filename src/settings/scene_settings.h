@@ -8,6 +8,7 @@
 
 #include "formats/import_scene.h"
 #include "settings/values.h"
+#include "stage/additions.h"
 #include "stage/edits/scene_edits.h"
 
 namespace tenebra::settings {
@@ -20,10 +21,13 @@ struct SceneSettings {
   bool cast_all = false;             ///< skies cast shadows too
   std::optional<Transfer> transfer;  ///< none: the format's own
   std::string environment;           ///< a Radiance picture; empty: none
-  bool floor = true;                 ///< one is added where light and floor are missing
-  bool plain = false;                ///< surfaces without textures and gloss (make_plain)
+  stage::Sky sky = stage::Sky::automatic;
+  bool floor = true;   ///< one is added where light and floor are missing
+  bool plain = false;  ///< surfaces without textures and gloss (make_plain)
 
-  bool meter_exposure = false;  ///< a method asks for --exposure auto
+  bool meter_exposure = false;   ///< a method asks for --exposure auto
+  bool exposure_given = false;   ///< all methods have an exposure of their own
+  bool emissive_lights = false;  ///< a method makes lights of emissive meshes
 
   std::optional<double> time_s;
   double fps = 30.0;

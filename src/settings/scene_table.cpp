@@ -139,9 +139,18 @@ void add_looks(SceneRows& rows) {
                "ambient light and what metals mirror"},
       [](auto& scene) -> auto& { return scene.environment; }));
   rows.push_back(SceneRow::words(
+      {.name = "sky",
+       .help =
+           "Light that is added. sun: a sun and a soft sky; soft: the sky alone; auto: sun where nothing "
+           "gives light (file, --add-light, --emissive-lights, --environment), soft where lights with units "
+           "leave the rest black",
+       .group = Group::scene},
+      [](auto& scene) -> auto& { return scene.sky; }, sky_choices));
+  rows.push_back(SceneRow::words(
       {.name = "floor",
-       .help = "auto: a file without light, which gets a sun and a soft sky, also gets a floor that shows "
-               "the shadow, if it has none and there is no --environment; none: no floor",
+       .help =
+           "auto: a file that gets a sun also gets a floor that shows the shadow, if it has none and there "
+           "is no --environment; none: no floor",
        .group = Group::scene},
       [](auto& scene) -> auto& { return scene.floor; }, floor_choices));
   rows.push_back(SceneRow::words(

@@ -14,9 +14,10 @@ Setting<MethodSettings> light_size() {
        .value = "W[xH][%]",
        .help =
            "Turns point and spot lights into rectangles of this size, in metres, or (4%) in percent of the "
-           "scene's diagonal, of the same brightness. May be repeated: facing=X,Y,Z, the point that they "
+           "scene's diagonal, of the same brightness; 0: lights without a size keep hard shadows. May be "
+           "repeated: facing=X,Y,Z, the point that they "
            "face; emission=point|lambert; sun=DEGREES, the diameter of directional lights, like 0.53",
-       .standard = "they stay points",
+       .standard = "1% for lights without a size",
        .used = Used::with_soft,
        .has_keys = true},
       [](auto& method) -> auto& { return method.light_size; }, parse_light_size, light_size_text);
@@ -28,7 +29,7 @@ void add_light_shapes(MethodRows& rows) {
       {.name = "sun-size",
        .value = "DEGREES",
        .help = "Diameter of directional lights, like 0.53, at the same brightness; 0: hard shadows",
-       .standard = "as the scene has it",
+       .standard = "as the scene has it, else 0.53",
        .used = Used::with_soft,
        .range = {0, 90},
        .expected = "degrees from 0 to 90, like 0.53",

@@ -92,11 +92,14 @@ Expected<LightSize> parse_light_size(const std::string& text) {
   const auto parts = split(sizes, 'x');
   const auto side = [&](std::size_t i) { return static_cast<float>(finite_from(parts[i]).value_or(0)); };
   result.size = {side(0), side(parts.size() - 1)};
-  const bool usable = result.size.x > 0 && result.size.y > 0 && std::isfinite(result.size.x + result.size.y);
+  const auto is_zero = [](std::string_view side) { return finite_from(side) == 0; };
+  const bool none = std::all_of(parts.begin(), parts.end(), is_zero);
+  const bool usable =
+      none || (result.size.x > 0 && result.size.y > 0 && std::isfinite(result.size.x + result.size.y));
   if (parts.size() > 2 || !usable) {
     return base::fail(
         "found {}, expected W or WxH above 0, in metres or with % of the scene's diagonal, like 0.5, 1x0.4 "
-        "or 4%",
+        "or 4%, or 0 for none",
         text);
   }
   return result;

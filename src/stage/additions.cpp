@@ -10,6 +10,7 @@
 #include "stage/default_light.h"
 #include "stage/framing.h"
 #include "stage/room.h"
+#include "stage/shadow_floor.h"
 
 namespace tenebra::stage {
 namespace {
@@ -65,9 +66,10 @@ void add_sun(Scene& scene, const glm::dvec3& towards) {
   node.name = "added sun";
   node.rotation = glm::quat_cast(scene::view_basis(-towards, {0, 1, 0}));
   add_light(scene, std::move(node), LightType::directional, default_sun);
+  scene.lights.back().diameter_deg = default_sun_deg;
   scene.warnings.push_back(
       "The scene has no light; a sun from the left behind the camera, 50 degrees high, and the light of a "
-      "soft sky were added.");
+      "soft sky were added (--sky none leaves them out).");
 }
 
 /// No sun reaches into a closed room.
@@ -79,58 +81,6 @@ void add_lamp(Scene& scene, const glm::dvec3& at) {
   scene.warnings.push_back("The scene has no light; a lamp below the ceiling and ambient light were added.");
 }
 
-/// Whether three quarters of the ground, under the scene and its shadow, are covered by what faces up within
-/// a twentieth of the scene's height from below.
-bool has_floor(const Subject& subject) {
-  const glm::dvec3 size = subject.high - subject.low;
-  const double band = subject.low.y + 0.1 * size.y;
-  const double shadow = 0.6 * size.y;  // the sun's, along either axis, in the mean
-  double covered = 0;
-  for (const glm::uvec3& triangle : subject.first.triangles) {
-    if (triangle == glm::uvec3(0)) continue;
-    glm::dvec3 v[3];
-    for (int k = 0; k < 3; ++k) v[k] = glm::dvec3(subject.first.positions[triangle[k]]);
-    const glm::dvec3 normal = glm::cross(v[1] - v[0], v[2] - v[0]);
-    if (std::max({v[0].y, v[1].y, v[2].y}) <= band && normal.y > 0.9 * glm::length(normal))
-      covered += 0.5 * normal.y;
-  }
-  return covered > 0 && covered >= 0.75 * (size.x + shadow) * (size.z + shadow);
-}
-
-/// As bright in the sun as the background: only the shadow is seen.
-Material floor_material(float background) {
-  Material material;
-  material.name = "added floor";
-  material.model = SurfaceModel::phong;
-  const auto high = static_cast<float>(towards_sun({}).y);
-  material.base_color = glm::vec3(background / (default_ambient + default_sun * high));
-  material.specular = glm::vec3(0.0f);
-  return material;
-}
-
-/// Under the box and the sun's shadow of it.
-void add_floor(Scene& scene, const Subject& subject, double floor_y, const glm::dvec3& sun) {
-  const glm::dvec3 shift = (floor_y - subject.high.y) / sun.y * sun, pad(0.5 * subject.radius_m());
-  const glm::vec3 low(glm::min(subject.low, subject.low + shift) - pad),
-      high(glm::max(subject.high, subject.high + shift) + pad);
-  const auto y = static_cast<float>(floor_y);
-  Mesh mesh;
-  mesh.name = "added floor";
-  mesh.positions = {{low.x, y, low.z}, {low.x, y, high.z}, {high.x, y, high.z}, {high.x, y, low.z}};
-  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  mesh.materials.assign(2, static_cast<std::uint32_t>(scene.materials.size()));
-  scene.materials.push_back(floor_material(default_horizon));
-  Node node;
-  node.name = "added floor";
-  node.mesh = static_cast<int>(scene.meshes.size());
-  scene.meshes.push_back(std::move(mesh));
-  scene.nodes.push_back(std::move(node));
-  scene.warnings.push_back(fmt::format(
-      "The scene has neither light nor floor; a floor that shows its shadow was added at a height "
-      "of {:.4g} (--floor none leaves it out).",
-      floor_y));
-}
-
 bool is_placed(const Scene& scene, int Node::*what) {
   return std::any_of(scene.nodes.begin(), scene.nodes.end(),
                      [&](const Node& node) { return node.*what >= 0; });
@@ -139,26 +89,44 @@ bool is_placed(const Scene& scene, int Node::*what) {
 }  // namespace
 
 AddedParts add_missing_parts(Scene& scene, const Additions& wish) {
-  AddedParts added;
+  AddedParts added{.own_nodes = scene.nodes.size(),
+                   .own_ambient = scene.ambient_light,
+                   .own_background = scene.background};
   added.camera = !is_placed(scene, &Node::camera);
-  added.light = !is_placed(scene, &Node::light);
+  added.light = wish.sky == Sky::sun || (wish.sky == Sky::automatic && !is_placed(scene, &Node::light));
   if (!added.camera && !added.light) return added;
   const Subject subject = subject_of(scene);
   const auto room = added.camera ? frame_room(subject, wish.aspect) : std::nullopt;
   added.lamp = added.light && room;
-  added.floor = wish.floor && added.light && !room && !subject.empty() && !has_floor(subject);
+  const bool floor = wish.floor && added.light && !room && !subject.empty() && !has_floor(subject);
+  added.floor = floor && wish.for_pictures;
   // A thousandth below: what lies flat on the ground is not in the floor's plane.
-  const double floor_y = subject.low.y - 1e-3 * subject.radius_m();
+  added.floor_y = subject.low.y - 1e-3 * subject.radius_m();
   if (added.camera) {
-    const auto shadow = added.floor ? std::optional(floor_y) : std::nullopt;
+    const auto shadow = floor ? std::optional(added.floor_y) : std::nullopt;
     add_camera(scene, room ? *room : frame_subject(subject, shadow, wish.aspect), !wish.aspect);
+    if (!wish.for_pictures) scene.warnings.pop_back();
   }
   if (added.lamp) add_lamp(scene, *room->lamp);
   if (!added.light || added.lamp) return added;
   const glm::dvec3 sun = towards_sun(compass_of(right_of_camera(scene)));
-  if (added.floor) add_floor(scene, subject, floor_y, sun);
+  if (added.floor) add_shadow_floor(scene, subject, added.floor_y);
   add_sun(scene, sun);
   return added;
+}
+
+void remove_added(const AddedParts& added, Scene& scene) {
+  scene.nodes.resize(added.own_nodes);
+  if (added.light) scene.lights.pop_back();
+  if (added.camera) scene.cameras.pop_back();
+  scene.ambient_light = added.own_ambient;
+  scene.background = added.own_background;
+}
+
+void hide_floor_from_below(const AddedParts& added, double eye_y, FrameGeometry& frame) {
+  if (!added.floor || eye_y >= added.floor_y || frame.parts.empty()) return;
+  std::fill(frame.triangles.begin() + static_cast<std::ptrdiff_t>(frame.parts.back()), frame.triangles.end(),
+            glm::uvec3(0));
 }
 
 void add_missing_camera_and_light(Scene& scene) {

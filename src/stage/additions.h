@@ -1,24 +1,41 @@
 // Parts that a picture needs and a file lacks: a camera, light, a floor for the shadow.
 #pragma once
 
-#include <tenebra/scene.h>
 #include <optional>
 
+#include <tenebra/frame_geometry.h>
+
 namespace tenebra::stage {
+
+/// Light that a scene gets beside its own.
+enum class Sky {
+  automatic,  ///< what is missing: a sun and a sky where there is no light, a sky alone where lights leave
+              ///< the rest black
+  none,
+  soft,  ///< a sky alone
+  sun    ///< a sun and a sky, beside all other lights
+};
 
 /// What add_missing_parts is to add.
 struct Additions {
   bool floor = true;  ///< a floor under scenes that have neither light nor floor
   std::optional<float>
       aspect;  ///< width / height of the picture; none: what suits the scene (Camera::aspect)
+  Sky sky = Sky::automatic;
+  bool for_pictures = true;  ///< false: no floor is made, and the camera, which remove_added takes out, is
+                             ///< not spoken of; light and camera stand where they would in pictures
 };
 
 /// What add_missing_parts added.
 struct AddedParts {
-  bool camera = false;  ///< a camera that sees everything, or stands in a closed room
-  bool light = false;   ///< a sun and the light of a sky, or a lamp and ambient light
-  bool lamp = false;    ///< the light is a lamp in a closed room
-  bool floor = false;   ///< a floor to catch the shadow
+  bool camera = false;        ///< a camera that sees everything, or stands in a closed room
+  bool light = false;         ///< a sun and the light of a sky, or a lamp and ambient light
+  bool lamp = false;          ///< the light is a lamp in a closed room
+  bool floor = false;         ///< a floor to catch the shadow
+  double floor_y = 0;         ///< its height
+  bool sky = false;           ///< ambient light alone, beside the scene's lights (session/brightness.h)
+  std::size_t own_nodes = 0;  ///< of the scene before
+  glm::vec3 own_ambient{0.0f}, own_background{0.0f};  ///< the scene's before
 };
 
 /// Adds what a picture needs if the file lacks it, and says so in scene.warnings:
@@ -27,9 +44,16 @@ struct AddedParts {
 ///   closed room, one that stands in it;
 /// - a sun from the left behind the camera, with the ambient light and (unless the file states one) the
 ///   background of a soft sky; in a closed room whose camera was added a lamp below the ceiling;
-/// - with that light, where nothing that faces up covers most of the ground, a floor to catch the shadow: a
-///   flat mesh, the scene's last, as bright in the sun as the background.
+/// - with that sun, where nothing that faces up covers most of the ground, a floor to catch the shadow: the
+///   scene's last mesh, as bright in the sun as the background, and fading out where the shadow of a sun 30
+///   degrees high would end. It casts none.
 AddedParts add_missing_parts(Scene& scene, const Additions& wish = {});
+
+/// The scene without what was added, but for a floor.
+void remove_added(const AddedParts& added, Scene& scene);
+
+/// Drops the triangles of the added floor, the last mesh, from a frame that is seen from a height below it.
+void hide_floor_from_below(const AddedParts& added, double eye_y, FrameGeometry& frame);
 
 /// Adds a camera that sees everything in a square picture, and a sun with the light of a soft sky, where the
 /// file lacks them. Says so in scene.warnings.

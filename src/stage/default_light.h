@@ -7,11 +7,13 @@
 namespace tenebra::stage {
 
 inline constexpr float default_sun = 0.75f;      ///< facing it
+inline constexpr float default_sun_deg = 1;      ///< its diameter, twice the real sun's: soft shadows show it
 inline constexpr float default_lamp = 0.6f;      ///< facing the lamp of a closed room
 inline constexpr float default_ambient = 0.35f;  ///< facing up, in the open
-inline constexpr float default_horizon = 0.5f;   ///< radiance of the horizon and of the ground below
+inline constexpr float default_horizon = 0.3f;   ///< radiance of the horizon and of the ground below: darker
+                                                 ///< than a grey model, lit or not, and lighter than shadows
 
-/// The soft sky as an environment: the ground is as bright as the horizon, and above the sky gets darker in
+/// The soft sky as an environment: the ground is as bright as the horizon, and above the sky gets brighter in
 /// proportion to the sine of the height, so that what faces up gets default_ambient.
 io::ImageF soft_sky();
 

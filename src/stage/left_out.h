@@ -14,8 +14,9 @@ namespace tenebra::stage {
 bool leave_out_casters(Scene& scene, const std::vector<std::string>& names, std::string& unmatched);
 
 /// Leaves skies out of the casters of the lights that they hide: a sky is a flat or open mesh that has nearly
-/// all other casters (99 % of their vertices) in front of it and alone shadows nearly all of these from a
-/// light, at the start of the first clip. Adds to Light::left_out_nodes, and a sentence for each to
+/// all other casters (99 % of their vertices) in front of it, alone shadows nearly all of these from a light,
+/// at the start of the first clip, and looks like one: it is called so, shines or is unlit, or the file is
+/// one of AFF. Any other is a ceiling. Adds to Light::left_out_nodes, and a sentence for each to
 /// scene.warnings; any other mesh that hides a light from nearly all is named there too.
 /// Lights must not be shared by nodes.
 void leave_out_covers(Scene& scene);

@@ -61,6 +61,25 @@ bool is_open(const Part& part, const FrameGeometry& frame) {
   return false;
 }
 
+bool says_sky(const std::string& name) {
+  std::string lower;
+  for (const char c : name) lower += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return lower.find("sky") != std::string::npos;
+}
+
+/// Whether a mesh is painted as a sky: by its name or its material's, or because it shines or is unlit. AFF
+/// and NFF have neither names nor light: there a sheet over all is one.
+bool looks_like_sky(const Scene& scene, int number) {
+  const Node& node = scene.nodes[static_cast<std::size_t>(number)];
+  const Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
+  if (scene.transfer == Transfer::display || says_sky(node.name) || says_sky(mesh.name)) return true;
+  return std::any_of(mesh.materials.begin(), mesh.materials.end(), [&](std::uint32_t index) {
+    const Material& material = scene.materials[index];
+    return material.model == SurfaceModel::unlit || material.emissive != glm::vec3(0.0f) ||
+           says_sky(material.name);
+  });
+}
+
 /// What lies in front of a part: n.p > limit, by the mean of its normals and the foremost of its vertices.
 struct Front {
   glm::dvec3 n{0.0};
@@ -179,7 +198,8 @@ std::vector<LightCover> find_light_covers(const Scene& scene, const FrameGeometr
       };
       if (const Count few = count(first_look); !few.hides(0.5) && !few.is_over(0.5)) continue;
       const Count seen = count(most_tests / parts[i].triangles.size());
-      const bool is_sky = seen.is_over(nearly_all) && is_open(parts[i], frame);
+      const bool is_sky =
+          seen.is_over(nearly_all) && is_open(parts[i], frame) && looks_like_sky(scene, parts[i].node);
       if (is_sky || seen.hides(nearly_all)) covers.push_back({k, parts[i].node, is_sky});
     }
   }

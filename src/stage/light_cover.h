@@ -11,7 +11,8 @@ namespace tenebra::stage {
 struct LightCover {
   std::size_t light = 0;  ///< index into the lights
   int node = -1;          ///< whose mesh it is
-  bool is_sky = false;    ///< flat or open, and nearly all other casters stand in front of it
+  bool is_sky =
+      false;  ///< flat or open, nearly all other casters stand in front of it, and it looks like one
 };
 
 /// Meshes at their nodes that alone cross the ways from nearly all (99 %) vertices of all other casters, or

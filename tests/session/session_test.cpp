@@ -62,17 +62,19 @@ TEST(Session, EditsThatComeAndGoLeaveNothingBehind) {
   EXPECT_EQ(picture(plain, 20), before);
 }
 
-TEST(Session, AFileWithoutCameraAndLightGetsThemForPicturesAlone) {
+TEST(Session, AFileWithoutLightGetsTheSameForPicturesAndForLight) {
   const testing::TemporaryFolder folder;
   settings::SceneSettings settings;
   settings.file = (folder / "triangle.obj").string();
   std::ofstream(settings.file) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-  const auto complete = stage_scene(settings), as_it_is = stage_scene(settings, Staging::as_it_is);
-  ASSERT_TRUE(complete && as_it_is);
+  const auto complete = stage_scene(settings), for_light = stage_scene(settings, Staging::for_light);
+  ASSERT_TRUE(complete && for_light);
   EXPECT_TRUE(complete->added.camera && complete->added.light);
   EXPECT_EQ(complete->scene.lights.size(), 1u);
-  EXPECT_TRUE(as_it_is->scene.lights.empty() && as_it_is->scene.cameras.empty());
-  EXPECT_LT(as_it_is->scene.warnings.size(), complete->scene.warnings.size());
+  EXPECT_TRUE(complete->added.floor && !for_light->added.floor);
+  EXPECT_EQ(evaluate_lights(for_light->scene, -1, 0)[0].direction,
+            evaluate_lights(complete->scene, -1, 0)[0].direction);
+  EXPECT_EQ(for_light->scene.warnings.size(), 1u) << "of the light alone";
 }
 
 TEST(Session, KnowsTheFilesThatItReadAndTheTimesOfItsFrames) {

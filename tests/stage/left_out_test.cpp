@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include <tenebra/frame_geometry.h>
 
 namespace tenebra::stage {
@@ -85,13 +87,13 @@ TEST(Casters, AreLeftOutByMeshOrMaterialOrSource) {
   }
 }
 
-/// A floor, a roof of the same size above it that looks down, and a light above both.
+/// A floor, a roof of the same size above it that looks down, called a sky, and a light above both.
 Scene covered_floor() {
   Scene scene;
   scene.materials.resize(1);
   const auto add_square = [&](float y, float half, bool up) {
     Mesh& mesh = scene.meshes.emplace_back();
-    mesh.name = up ? "floor" : "roof";
+    mesh.name = up ? "floor" : "Skydome";
     mesh.positions = {{-half, y, -half}, {half, y, -half}, {half, y, half}, {-half, y, half}};
     mesh.triangles = {{0, 2, 1}, {0, 3, 2}};
     if (!up) mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
@@ -110,7 +112,31 @@ TEST(Covers, SkyIsLeftOutOfTheCastersOfTheLightItHides) {
   leave_out_covers(scene);
   EXPECT_EQ(scene.lights[0].left_out_nodes, std::vector<int>{1});
   ASSERT_EQ(scene.warnings.size(), 1u);
-  EXPECT_NE(scene.warnings[0].find("roof hides light 0 (lamp)"), std::string::npos) << scene.warnings[0];
+  EXPECT_NE(scene.warnings[0].find("Skydome hides light 0 (lamp)"), std::string::npos) << scene.warnings[0];
+}
+
+// A ceiling of one sheet keeps the light of the lamp above it out; what is painted as a sky does not.
+TEST(Covers, WhatDoesNotLookLikeASkyIsACeiling) {
+  Scene ceiling = covered_floor();
+  ceiling.meshes[1].name = "ceiling";
+  leave_out_covers(ceiling);
+  EXPECT_TRUE(ceiling.lights[0].left_out_nodes.empty());
+  EXPECT_NE(ceiling.warnings.at(0).find("ceiling hides light 0 (lamp)"), std::string::npos);
+  const auto is_left_out = [&](const std::function<void(Scene&)>& paint) {
+    Scene scene = covered_floor();
+    scene.meshes[1].name.clear();
+    scene.meshes[1].materials = {1, 1};
+    scene.materials.resize(2);
+    paint(scene);
+    leave_out_covers(scene);
+    return !scene.lights[0].left_out_nodes.empty();
+  };
+  EXPECT_FALSE(is_left_out([](Scene&) {}));
+  EXPECT_TRUE(is_left_out([](Scene& scene) { scene.nodes[1].name = "the SKY"; }));
+  EXPECT_TRUE(is_left_out([](Scene& scene) { scene.materials[1].name = "sky.001"; }));
+  EXPECT_TRUE(is_left_out([](Scene& scene) { scene.materials[1].model = SurfaceModel::unlit; }));
+  EXPECT_TRUE(is_left_out([](Scene& scene) { scene.materials[1].emissive = {0, 0, 1}; }));
+  EXPECT_TRUE(is_left_out([](Scene& scene) { scene.transfer = Transfer::display; })) << "a file of AFF";
 }
 
 TEST(Covers, WhatHidesALittleLessIsNone) {
@@ -134,7 +160,7 @@ TEST(Covers, WhatFacesAwayIsClosedOrAmongTheOthersIsNone) {
   leave_out_covers(away);
   EXPECT_TRUE(away.lights[0].left_out_nodes.empty());
   ASSERT_EQ(away.warnings.size(), 1u);
-  EXPECT_NE(away.warnings[0].find("roof hides light 0 (lamp)"), std::string::npos) << away.warnings[0];
+  EXPECT_NE(away.warnings[0].find("Skydome hides light 0 (lamp)"), std::string::npos) << away.warnings[0];
   EXPECT_NE(away.warnings[0].find("--no-cast"), std::string::npos) << away.warnings[0];
   Scene closed = covered_floor();
   closed.meshes[1].triangles = {{0, 1, 2}, {0, 2, 3}, {0, 2, 1}, {0, 3, 2}};  // a plate with two sides

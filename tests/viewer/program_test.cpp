@@ -237,7 +237,7 @@ std::vector<BadUse> bad_uses() {
                                                       {"--mask", "a.jpg"},
                                                       {"--mask", "a.pfm"},
                                                       {"--mask", "a.png", "--mask", "%s.png"},
-                                                      {"--light-size", "0", "--shadows", "soft"},
+                                                      {"--light-size", "0x1", "--shadows", "soft"},
                                                       {"--light-size", "1x", "--shadows", "soft"},
                                                       {"--light-size", "1x-1"},
                                                       {"--light-size", "1x1x1"},

@@ -20,7 +20,7 @@ inline constexpr int moving_scene_frames = 301;  // 10 s at 30 frames per second
 inline constexpr int moving_scene_triangles = 3;
 
 /// floor (2 triangles) at y = 0, blocker (1 triangle) at y = 1; camera "eye"; `lights` point lights 3 m
-/// above.
+/// above. It states its ambient light, so its pictures are exposed by 1.
 inline std::filesystem::path write_moving_scene(const TemporaryFolder& folder, int lights = 1) {
   const std::array<float, 9 * 3> corners{-4, 0, -4, -4, 0, 4, 4,  0,  -4, 4, 0, -4, -4, 0,
                                          4,  4, 0,  4,  0, 0, -1, -1, 0,  1, 1, 0,  1};
@@ -41,7 +41,7 @@ inline std::filesystem::path write_moving_scene(const TemporaryFolder& folder, i
     roots.append(",").append(std::to_string(3 + i));
   }
   write_text(folder / "moving.gltf", R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[)" + roots +
-                                         R"(]}],
+                                         R"(],"extras":{"ambient_light":[0.1,0.1,0.101]}}],
 "extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[)" +
                                          light_list + R"(]}},
 "nodes":[{"name":"floor","mesh":0},{"name":"blocker","mesh":1},

@@ -60,22 +60,20 @@ Expected<double> moment(const BakeOptions& options, const session::StagedScene& 
   return staged.time_of_frame(*options.frame);
 }
 
-/// Of both light and occlusion: what fills where no light shines.
-glm::vec3 ambient_light(const BakeOptions& options, const Scene& scene) {
-  // A file without light has no say in it: what its pictures have.
-  return options.ambient.value_or(scene.lights.empty() ? glm::vec3(stage::default_ambient)
-                                                       : scene.ambient_light);
-}
-
 Expected<Baking> prepare(const BakeOptions& options) {
-  auto staged = session::stage_scene(options.scene, session::Staging::as_it_is);
+  SceneOptions of_scene = options.scene;
+  of_scene.exposure_given = true;
+  if (options.content == BakeContent::ao) of_scene.sky = stage::Sky::none;
+  auto staged = session::stage_scene(of_scene, session::Staging::for_light);
   if (!staged) return tl::unexpected(staged.error());
   Baking baking{.staged = std::move(*staged), .input = {}, .request = {}, .notes = {}};
   Scene& scene = baking.staged.scene;
   const bool no_light = scene.lights.empty() && options.scene.edits.added.empty();
   if (no_light && options.content != BakeContent::ao)
-    return base::fail("{}: found no light, expected one; --add-light adds it, --what ao needs none",
-                      options.scene.file);
+    return base::fail(
+        "{}: found no light, expected one; --add-light adds it, --what ao needs none, and "
+        "--sky auto lights it as pictures are",
+        options.scene.file);
   bake::separate_meshes(scene);
   if (options.target == BakeTarget::vertices) bake::separate_flat_corners(scene);
   const auto time_s = moment(options, baking.staged);
@@ -84,7 +82,8 @@ Expected<Baking> prepare(const BakeOptions& options) {
   session::evaluate(scene, options.scene.edits, baking.staged.clip, *time_s, baking.input);
   baking.request.settings = session::with_edits(bake_settings(options), options.scene.edits);
   baking.request.direct = options.content != BakeContent::ao;
-  if (options.content == BakeContent::both) baking.request.ambient = ambient_light(options, scene);
+  if (options.content == BakeContent::both)
+    baking.request.ambient = options.ambient.value_or(scene.ambient_light);
   if (options.content == BakeContent::both && baking.request.ambient == glm::vec3(0.0f))
     baking.notes.emplace_back(
         "the scene has no ambient light, so occlusion does not change the light; --ambient 0.2,0.2,0.2 adds "
@@ -104,6 +103,7 @@ Expected<void> light_scene(const BakeOptions& options, Baking& baking, LitScene&
   auto light = bake::SurfaceLight::create(out.scene, baking.input, baking.request, baking.notes);
   if (!light) return tl::unexpected(light.error());
   out.light = std::move(*light);
+  stage::remove_added(baking.staged.added, baking.staged.scene);  // the written file lights itself
   return {};
 }
 

@@ -11,6 +11,7 @@
 #include "options/memory_option.h"
 #include "options/method_options.h"
 #include "options/scene_options.h"
+#include "session/brightness.h"
 #include "session/scene_summary.h"
 #include "session/staged_scene.h"
 #include "settings/values.h"
@@ -226,16 +227,23 @@ void add_changes(Scene& scene, Json& json) {
   move_said("warnings", said);
 }
 
-/// What --exposure auto would be.
-Expected<void> add_metered(const InfoOptions& options, Json& json) {
-  if (!options.meter) return {};
+/// How pictures are exposed, and the sky that goes with it, where these have to be measured; and what
+/// --exposure auto would be.
+Expected<void> add_metered(const InfoOptions& options, bool unknown, Json& json) {
+  if (!options.meter && !unknown) return {};
   SceneOptions of_scene = options.scene;
   of_scene.meter_exposure = true;
   const auto staged = session::stage_scene(of_scene);
   if (!staged) return tl::unexpected(staged.error());
+  const settings::SceneDisplay& display = staged->display;
+  json["shown"]["exposure"] = settings::render_settings({}, {}, display).exposure;
+  const auto& said = staged->scene.warnings;  // the newest last
+  const std::size_t newest = std::size_t{staged->added.sky} + std::size_t{display.needs_exposure};
+  for (std::size_t i = said.size() - newest; i < said.size(); ++i) json["added"].push_back(said[i]);
+  if (!options.meter) return {};
   for (const shade::Tone tone : shade::tones)
     json["shown"][fmt::format("auto_{}", shade::tone_name(tone))] =
-        (*staged->display.exposures)[static_cast<std::size_t>(tone)];
+        (*display.exposures)[static_cast<std::size_t>(tone)];
   return {};
 }
 
@@ -245,10 +253,11 @@ Expected<int> info(const InfoOptions& options) {
   if (auto limited = limit_memory(options.memory_mb); !limited) return tl::unexpected(limited.error());
   auto scene = formats::import_scene(options.scene.file, options.scene.import);
   if (!scene) return tl::unexpected(scene.error());
+  const bool unknown = session::has_units(*scene) && !session::states_surroundings(*scene);
   stage::leave_out_covers(*scene);
   Json json = describe(*scene, options);
   add_changes(*scene, json);
-  if (auto metered = add_metered(options, json); !metered) return tl::unexpected(metered.error());
+  if (auto metered = add_metered(options, unknown, json); !metered) return tl::unexpected(metered.error());
   if (options.json) {
     // File names and names in files may hold bytes that are not UTF-8, which JSON cannot.
     print_out("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));

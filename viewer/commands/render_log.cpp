@@ -125,7 +125,8 @@ std::vector<render::LogSetting> describe_render(const RenderPlan& plan, const Re
         {"budget_from", errors_text(budget_ladder(options.method).front(),
                                     budget_choice(options.method.render))});  // --quality decides it
   }
-  list.push_back({"exposure_from", options.method.auto_exposure ? "auto" : "option"});
+  list.push_back({"exposure_from",
+                  settings::takes_measured_exposure(options.method, staged.display) ? "auto" : "option"});
   for (EditOption& edit : edit_options(options.scene.edits)) {
     list.push_back({setting_name(edit), std::move(edit.value)});
   }

@@ -76,7 +76,7 @@ bool has_area_light(const RenderPlan& plan, const RenderOptions& options) {
         (light.type == LightType::directional && sun_deg > 0))
       return true;
   }
-  return options.method.light_size || area.emissive_quads;
+  return area.size.x > 0 || area.emissive_quads;
 }
 
 /// Frames in the middle of `parts` equal parts of `count` frames from `first` on.

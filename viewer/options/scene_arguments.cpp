@@ -14,7 +14,7 @@ std::string of(const SceneOptions& options, std::initializer_list<std::string_vi
 
 std::string dressing_arguments(const SceneOptions& options) {
   return of(options, {"scene", "no-cast", "cast-all", "cone-sides", "cutout-limit", "texture-path",
-                      "transfer", "environment", "floor", "surfaces"});
+                      "transfer", "environment", "sky", "floor", "surfaces"});
 }
 
 std::string view_arguments(const SceneOptions& options) {

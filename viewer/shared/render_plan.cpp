@@ -39,6 +39,8 @@ std::vector<PlannedFrame> frames_of_chunk(const std::vector<PlannedFrame>& frame
 Expected<RenderPlan> plan_render(const RenderOptions& options) {
   SceneOptions of_scene = options.scene;
   of_scene.meter_exposure = options.method.auto_exposure;
+  of_scene.exposure_given = options.method.exposure_given;
+  of_scene.emissive_lights = makes_emissive_lights(options.method);
   auto staged = session::stage_scene(of_scene);
   if (!staged) return tl::unexpected(staged.error());
   RenderPlan plan;

@@ -20,11 +20,21 @@ std::string number_or_name(const std::vector<Named>& list, int index) {
   return taken ? list[static_cast<std::size_t>(index)].name : number;
 }
 
+/// Light that was added, or not, when the scene was opened, and that the lights of now would have added
+/// otherwise.
+const char* sky_of(const ViewState& state) {
+  if (state.options.sky != stage::Sky::automatic || !state.options.environment.empty()) return "";
+  const bool users = !state.edits.added.empty() ||
+                     makes_emissive_lights(state.slots[static_cast<std::size_t>(state.active)]);
+  if (state.scene->added.light) return users ? "--sky sun " : "";
+  return state.scene->scene.lights.empty() && !users ? "--sky none " : "";
+}
+
 }  // namespace
 
 std::string shell_arguments(const ViewState& state, double time_s, Size size) {
   const Scene& scene = state.scene->scene;
-  std::string text = dressing_arguments(state.options);
+  std::string text = dressing_arguments(state.options) + sky_of(state);
   const auto add = [&](const char* name, const std::string& value) {
     text += fmt::format("{} {} ", name, shell_word(value));
   };

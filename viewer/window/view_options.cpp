@@ -168,6 +168,9 @@ Expected<void> settle_view_options(ViewOptions& options) {
   }
   options.scene.meter_exposure =
       options.method.auto_exposure || (options.compare && options.compare->auto_exposure);
+  options.scene.exposure_given =
+      options.method.exposure_given && (!options.compare || options.compare->exposure_given);
+  options.scene.emissive_lights = makes_emissive_lights(options.method);
   if (options.scene.eye && options.navigate == CameraMode::scene) options.navigate = CameraMode::orbit;
   if (options.record) {
     options.play = options.fixed_step = true;

@@ -22,7 +22,8 @@ ViewKey view_key(const ViewState& state) {
               .clip = state.clip,
               .camera = state.camera,
               .free = {},
-              .edits = state.edits};
+              .edits = state.edits,
+              .exposures = state.display.exposures};
   if (state.camera_mode != CameraMode::scene) key.free = state.free;
   return key;
 }
@@ -53,7 +54,7 @@ FrameRequest view_request(const ViewState& state, Size place, const std::optiona
   if (state.camera_mode != CameraMode::scene) request.free = state.free;
   request.edits = state.edits;
   request.slot = state.compare ? 0 : state.active;
-  const SceneDisplay& display = state.scene->display;
+  const SceneDisplay& display = state.display;
   request.a = render_settings(state.slots[static_cast<std::size_t>(request.slot)], place, display);
   if (state.compare) request.b = render_settings(state.slots[1], place, display);
   request.overlay = state.overlay;

@@ -52,6 +52,7 @@ struct ViewState {
   Overlay overlay = Overlay::none;
   float overlay_opacity = 0.85f;
 
+  SceneDisplay display;  ///< the scene's, with exposures once they were asked for
   float diagonal_m = 1;  ///< of the scene at its first frame
   glm::vec3 centre{0.0f};
   glm::vec3 half_size_m{0.5f};  ///< of the box around it
@@ -102,6 +103,7 @@ struct Actions {
   bool undo = false;
   bool redo = false;
   bool trade = false;               ///< begins or ends to try settings
+  bool meter = false;               ///< measures what an automatic exposure is
   std::optional<std::string> open;  ///< a scene file
 
   bool operator==(const Actions&) const = default;

@@ -177,6 +177,12 @@ void Viewer::update() {
   for (OpenedScene& opened : results.opened) take_scene(std::move(opened));
   for (const auto& picture : results.pictures) take_picture(picture);
   for (const auto& point : results.picked) take_pick(point);
+  for (const MeteredScene& metered : results.metered) {
+    if (!metered.exposures)
+      say(metered.exposures.error().message, true);
+    else if (metered.scene == state_.scene)
+      state_.display.exposures = *metered.exposures;
+  }
   for (auto& answer : answers_.take()) {
     if (answer)
       take_answer(std::move(*answer));
@@ -225,6 +231,11 @@ void Viewer::act() {
   if (actions.window_shot) window_shot_ = true, pace_.ask(1);
   if (actions.toggle_log) toggle_log();
   if (actions.focus && picture_) worker_.pick(*actions.focus);
+  if (actions.meter && state_.scene) {
+    SceneOptions options = state_.options;
+    options.edits = state_.edits;
+    worker_.meter(state_.scene, std::move(options));
+  }
   if (actions.explain) ask(QuestionKind::explain, *actions.explain);
   if (actions.pivot) ask(QuestionKind::pivot, *actions.pivot);
   if (actions.end_explanation) answers_.close(), pace_.ask(2);

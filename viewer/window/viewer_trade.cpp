@@ -14,7 +14,7 @@ void Viewer::toggle_trade() {
   if (recording_.is_on()) return say("A recording is under way.");
   state_.clock.pause(now());
   FrameRequest request = view_request(state_, place_, std::nullopt, now());
-  request.a = render_settings(state_.method(), place_, state_.scene->display);
+  request.a = render_settings(state_.method(), place_, state_.display);
   search_.begin(std::move(request), trade_subject(state_, place_, now()));
 }
 

@@ -36,9 +36,9 @@ Light read_area_light(const Value& value, const std::string& place) {
 }
 
 void read_spot(const tinygltf::SpotLight& spot, const std::string& place, Light& light) {
-  if (!(spot.innerConeAngle >= 0 && spot.innerConeAngle < spot.outerConeAngle &&
+  if (!(spot.innerConeAngle >= 0 && spot.innerConeAngle <= spot.outerConeAngle &&
         spot.outerConeAngle <= std::numbers::pi / 2 + 1e-6))
-    refuse("{}.spot: found cone angles {} and {}, expected 0 <= inner < outer <= pi/2", place,
+    refuse("{}.spot: found cone angles {} and {}, expected 0 <= inner <= outer <= pi/2", place,
            spot.innerConeAngle, spot.outerConeAngle);
   light.type = LightType::spot;
   light.inner_cone_rad = static_cast<float>(spot.innerConeAngle);

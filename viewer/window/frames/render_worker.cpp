@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "session/auto_exposure.h"
 #include "window/frames/within_memory.h"
 
 namespace tenebra::viewer {
@@ -69,6 +70,12 @@ void RenderWorker::request(FrameRequest request, bool at_once) {
 void RenderWorker::pick(glm::dvec2 place) {
   const std::lock_guard lock(mutex_);
   to_pick_ = place;
+  changed_.notify_all();
+}
+
+void RenderWorker::meter(std::shared_ptr<const session::StagedScene> scene, SceneOptions options) {
+  const std::lock_guard lock(mutex_);
+  to_meter_ = OpenedScene{std::move(options), std::move(scene)};
   changed_.notify_all();
 }
 
@@ -183,6 +190,17 @@ void RenderWorker::load(std::unique_lock<std::mutex>& lock) {
   publish(lock);
 }
 
+void RenderWorker::meter_scene(std::unique_lock<std::mutex>& lock) {
+  const OpenedScene asked = std::move(*to_meter_);
+  to_meter_.reset();
+  lock.unlock();
+  auto exposures =
+      within_memory([&] { return session::meter_exposures(**asked.scene, asked.options); }, [] {});
+  lock.lock();
+  results_.metered.push_back({*asked.scene, std::move(exposures)});
+  publish(lock);
+}
+
 void RenderWorker::pick_place(FrameMaker& maker, std::unique_lock<std::mutex>& lock) {
   const glm::dvec2 place = *to_pick_;
   to_pick_.reset();
@@ -291,6 +309,8 @@ void RenderWorker::run(const render::RasterChoice& raster) {
   while (!quit_) {
     if (to_open_) {
       load(lock);
+    } else if (to_meter_) {
+      meter_scene(lock);
     } else if (to_pick_) {
       pick_place(maker, lock);
     } else if (const Wall now = Clock::now(); can_draw(now) || can_refine(now)) {

@@ -34,11 +34,18 @@ struct OpenedScene {
   Expected<std::shared_ptr<const session::StagedScene>> scene;
 };
 
+/// What an automatic exposure of this scene is.
+struct MeteredScene {
+  std::shared_ptr<const session::StagedScene> scene;
+  Expected<settings::AutoExposures> exposures;
+};
+
 /// What was finished since it was last asked for.
 struct WorkerResults {
   std::vector<OpenedScene> opened;
   std::vector<std::shared_ptr<const Picture>> pictures;  ///< in order, none left out
   std::vector<std::optional<glm::vec3>> picked;
+  std::vector<MeteredScene> metered;
   std::vector<std::string> failures;     ///< sentences
   std::vector<std::string> gl_messages;  ///< complaints of a debug context
 };
@@ -58,6 +65,8 @@ public:
   /// finished, so that a user who drags sees pictures; refining stops at once. Without previews a frame under
   /// way is finished, unless `at_once`, or it has taken longer than anyone dragging would wait.
   void request(FrameRequest request, bool at_once);
+  /// Asks for what an automatic exposure is, with the edits of the options.
+  void meter(std::shared_ptr<const session::StagedScene> scene, SceneOptions options);
   void pick(glm::dvec2 place);  ///< asks for what is seen at a place of the last picture, 0 to 1
   void cancel();                ///< drops the request and the frame under way
   /// To be called whenever look_again_s is over: stops what takes too long.
@@ -87,6 +96,7 @@ private:
   Task next_task(PreviewTimes& times);
   void wait(std::unique_lock<std::mutex>& lock);
   void load(std::unique_lock<std::mutex>& lock);
+  void meter_scene(std::unique_lock<std::mutex>& lock);
   void pick_place(FrameMaker& maker, std::unique_lock<std::mutex>& lock);
   void draw(FrameMaker& maker, std::unique_lock<std::mutex>& lock);
   void finish(Expected<std::shared_ptr<Picture>> made, const FrameRequest& drawn, bool newly_asked,
@@ -106,6 +116,7 @@ private:
   std::optional<FrameRequest> request_;
   bool fresh_ = false;  // request_ has not been begun
   std::optional<glm::dvec2> to_pick_;
+  std::optional<OpenedScene> to_meter_;
   bool quit_ = false;
   WorkerStatus status_;
   Task task_;                      // that is drawn

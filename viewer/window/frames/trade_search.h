@@ -21,6 +21,7 @@ struct ViewKey {
   int clip = -1, camera = 0;
   std::optional<FreeCamera> free;  ///< none: the scene's camera
   stage::SceneEdits edits;
+  std::optional<settings::AutoExposures> exposures;
 
   bool operator==(const ViewKey&) const = default;
 };

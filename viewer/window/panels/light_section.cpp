@@ -24,7 +24,7 @@ std::string_view type_name(const Ui& ui, const Light& light, const stage::LightE
 /// none.
 glm::vec2 size_without_edit_m(const Ui& ui, int index, const Light& light) {
   if (light.type == LightType::point || light.type == LightType::spot) {
-    const LightSize size = ui.state.method().light_size.value_or(LightSize{});
+    const LightSize size = ui.state.method().light_size.value_or(LightSize{glm::vec2(unsized_percent), true});
     return size.size * (size.percent ? 0.01f * ui.state.diagonal_m : 1.0f);
   }
   for (const WorldLight& placed : ui.picture ? ui.picture->lights : std::vector<WorldLight>{}) {

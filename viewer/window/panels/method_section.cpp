@@ -39,7 +39,7 @@ void edit_hard(Ui& ui, MethodOptions& method) {
 
 void edit_light_size(Ui& ui, MethodOptions& method) {
   setting_row(ui, "Light size", "light-size");
-  LightSize size = method.light_size.value_or(LightSize{});
+  LightSize size = method.light_size.value_or(LightSize{glm::vec2(settings::unsized_percent), true});
   float metres[2] = {size.size.x, size.size.y};
   bool changed =
       ImGui::DragFloat2("##light size", metres, 0.01f, 0, 1000, size.percent ? "%.2f %%" : "%.2f m");
@@ -48,9 +48,9 @@ void edit_light_size(Ui& ui, MethodOptions& method) {
   changed |= ImGui::Checkbox("% of the scene's diagonal", &size.percent);
   if (changed) {
     size.size = {std::max(metres[0], 0.0f), std::max(metres[1], 0.0f)};
-    method.light_size.reset();
-    if (size.size.x > 0 && size.size.y > 0) method.light_size = size;
-    if (!method.light_size) method.render.area_lights.facing.reset();
+    if (!(size.size.x > 0 && size.size.y > 0)) size.size = glm::vec2(0.0f);
+    method.light_size = size;
+    if (size.size.x == 0) method.render.area_lights.facing.reset();
   }
   setting_row(ui, "Sun size", "sun-size");
   std::optional<float>& sun = method.render.area_lights.sun_deg;
@@ -66,7 +66,7 @@ void edit_light_size(Ui& ui, MethodOptions& method) {
                        ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
     ui.mark("sun size");
   }
-  if (!method.light_size) return;
+  if (method.light_size && method.light_size->size.x == 0) return;
   edit_words(ui, method, "Shining", "light-emission", "emission");
   setting_row(ui, "Facing", "light-facing");
   std::optional<glm::vec3>& facing = method.render.area_lights.facing;
@@ -165,15 +165,26 @@ void choose_quality(Ui& ui, render::RenderSettings& render) {
 }
 
 void edit_display(Ui& ui, MethodOptions& method) {
-  const SceneDisplay& display = ui.state.scene->display;
+  const SceneDisplay& display = ui.state.display;
   setting_row(ui, "Exposure", "exposure");
   float exposure = render_settings(method, {}, display).exposure;
-  if (ImGui::SliderFloat("##exposure", &exposure, 0.01f, 100.0f, method.auto_exposure ? "auto: %.3g" : "%.3g",
+  const bool measured = takes_measured_exposure(method, display);
+  ImGui::SetNextItemWidth(-ui.px(50));
+  if (ImGui::SliderFloat("##exposure", &exposure, 1e-4f, 100.0f, measured ? "auto: %.3g" : "%.3g",
                          ImGuiSliderFlags_Logarithmic)) {
     method.render.exposure = exposure > 0 ? exposure : 1;
     method.auto_exposure = false;
+    method.exposure_given = true;
   }
   ui.mark("exposure");
+  ImGui::SameLine(0, ui.px(4));
+  if (ImGui::Button("Auto")) {
+    method.auto_exposure = true;
+    method.exposure_given = false;
+    ui.actions.meter = true;
+  }
+  ui.mark("exposure.auto");
+  tooltip("One exposure for the whole animation, with which at most a hundredth of the pixels is too bright");
   setting_row(ui, "Tone", "tone");
   shade::Tone tone = tone_of(method, display.transfer);
   choose(ui, "tone", tone_choices, tone);
