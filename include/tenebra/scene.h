@@ -51,6 +51,10 @@ struct Mesh {
   };
   std::vector<Shape> shapes;  ///< ascending times; if not empty, replaces positions and normals
   bool casts_shadow = true;   ///< false: it is drawn and never occludes
+
+  /// The positions before they were rounded to floats, where the importer was asked to keep them. Empty: they
+  /// were not rounded.
+  std::vector<glm::dvec3> unrounded;
 };
 
 /// The nodes that move a mesh's vertices.
@@ -120,6 +124,8 @@ struct FileFrame {
   UpAxis up = UpAxis::y;       ///< of the file
   double metres_per_unit = 1;  ///< of the file; above 0
 
+  /// Whether the file's coordinates are the scene's.
+  bool is_identity() const { return origin == glm::dvec3(0.0) && up == UpAxis::y && metres_per_unit == 1; }
   glm::dvec3 to_scene(const glm::dvec3& file) const {
     return direction_to_scene((file - origin) * metres_per_unit);
   }

@@ -2,6 +2,7 @@
 // anything becomes a float.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <span>
 
@@ -19,23 +20,17 @@ struct Placement {
   glm::dvec3 given_offset{0.0};  ///< finite, in the file's coordinates
 };
 
+/// Whether the format of `file`, by its extension, says which axis is up and what the unit is.
+bool states_coordinates(const std::filesystem::path& file);
+
 /// What a format says about the coordinates of all its files.
 struct FormatCoordinates {
   UpAxis up = UpAxis::y;
   double metres_per_unit = 1;
 };
 
-/// The frame of a file whose geometry lies at `points` (any order; not finite: ignored). `carriers`: places
-/// in the file to which geometry is relative, such as nodes, the first preferred. All in the file's
-/// coordinates. The origin that is chosen automatically
-/// - is zero where floats are fine: where rounding moves no coordinate by more than 2^-21 of the longest side
-///   of the points' bounds;
-/// - else is a carrier, rounded to whole numbers, from which floats are fine; so what stands there gets the
-///   numbers that it has in the file;
-/// - else is the multiple of a round number (1, 2 or 5 times a power of ten, just above the longest side)
-///   nearest to the middle.
-/// Where floats are fine for the bounds alone, as a stray point makes them large, and rounding would move
-/// most points by half a millimetre, the bounds are those of all but the 2 % at each end of each axis.
+/// The frame of a file whose geometry lies at `points`, relative to `carriers`, in the file's coordinates; an
+/// automatic offset is math::whole_origin of these.
 FileFrame choose_frame(const Placement& placement, const FormatCoordinates& format,
                        std::span<const glm::dvec3> points, std::span<const glm::dvec3> carriers = {});
 

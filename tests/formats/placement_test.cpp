@@ -27,7 +27,7 @@ TEST(Placement, SubtractsNothingWhereFloatsAreFine) {
   EXPECT_EQ(origin_of(house({70, -20, 40})), dvec3(0)) << "the largest coordinate is 8 times the side";
   EXPECT_EQ(origin_of(house({71, -20, 40})), dvec3(80, -20, 40));
   EXPECT_EQ(origin_of({}), dvec3(0));
-  EXPECT_EQ(origin_of({dvec3(std::numeric_limits<double>::quiet_NaN())}), dvec3(0));
+  EXPECT_EQ(origin_of({dvec3(std::numeric_limits<double>::quiet_NaN()), dvec3(1e308)}), dvec3(0));
 }
 
 TEST(Placement, SubtractsTheSameFromEqualScenesAtRoundPlaces) {
