@@ -31,6 +31,10 @@ public:
   static Expected<Geometry> create(std::span<const glm::vec3> positions,
                                    std::span<const glm::uvec3> triangles,
                                    std::span<const std::uint8_t> casts_shadow = {});
+  /// The same from doubles, in map coordinates for instance: origin() is subtracted before they are rounded.
+  static Expected<Geometry> create(std::span<const glm::dvec3> positions,
+                                   std::span<const glm::uvec3> triangles,
+                                   std::span<const std::uint8_t> casts_shadow = {});
   Geometry(Geometry&&) noexcept;
   Geometry& operator=(Geometry&&) noexcept;
   ~Geometry();
@@ -38,8 +42,15 @@ public:
   /// The same triangles with other vertices, as many as before. Hard and soft shadows keep their trees and
   /// refit them; ambient occlusion makes its own anew. On failure nothing has changed.
   Expected<void> move_vertices(std::span<const glm::vec3> positions);
+  Expected<void> move_vertices(std::span<const glm::dvec3> positions);
 
-  /// As the tracers of the other headers take them; valid until the next change.
+  /// What the vertices are relative to, in the caller's coordinates: whole numbers, chosen by create() from
+  /// doubles, zero where floats are fine (rounding moves no coordinate by more than 2^-21 of the longest side
+  /// of their bounds) and for positions that are given as floats. Points are in the caller's coordinates;
+  /// lights with a place are relative to it: subtract it in double.
+  glm::dvec3 origin() const;
+
+  /// As the tracers of the other headers take them, relative to origin(); valid until the next change.
   TriangleView view() const;
 
 private:
@@ -50,7 +61,8 @@ private:
 
 /// Points to ask about. Every span but `positions` may be empty; otherwise it has one element for each point.
 struct QueryPoints {
-  std::span<const glm::dvec3> positions;  ///< metres, world space, finite; taken as exact
+  std::span<const glm::dvec3> positions;  ///< metres, in the coordinates of the geometry's vertices, finite;
+                                          ///< taken as exact once its origin is subtracted
   /// The triangle that each point lies on, which never blocks it, or no_triangle. A point without a triangle
   /// counts as rounded to float where a triangle may touch it (contact_rule).
   std::span<const std::uint32_t> triangles;

@@ -53,6 +53,13 @@ tenebra_status tenebra_geometry_set(tenebra_geometry* geometry, const float* pos
                                     const uint8_t* casts_shadow);
 /** The same triangles with other vertices, as many as before. */
 tenebra_status tenebra_geometry_move(tenebra_geometry* geometry, const float* positions, size_t vertex_count);
+/** Like tenebra_geometry_set and tenebra_geometry_move, from doubles, in map coordinates for instance: an
+ * offset of whole numbers is subtracted from these, from points and from lights before they become floats. */
+tenebra_status tenebra_geometry_set_doubles(tenebra_geometry* geometry, const double* positions,
+                                            size_t vertex_count, const uint32_t* triangles,
+                                            size_t triangle_count, const uint8_t* casts_shadow);
+tenebra_status tenebra_geometry_move_doubles(tenebra_geometry* geometry, const double* positions,
+                                             size_t vertex_count);
 
 /** Null if there is no memory. */
 tenebra_tracer* tenebra_tracer_create(void);
@@ -87,20 +94,31 @@ typedef struct tenebra_light {
   float spot_axis[3];   /**< unit, the way a spot shines */
   float spot_cos_outer; /**< no light outside of this cone; -1: no cone */
   float range_m;        /**< no light farther away; 0: unbounded */
+  /** x, y, z of a point or a spot, in place of position; may be null. */
+  const double* position_doubles;
 } tenebra_light;
 /** Default values. */
 #define TENEBRA_LIGHT_INIT \
-  { sizeof(tenebra_light), 0, {0, 0, 0}, {0, 1, 0}, {0, -1, 0}, -1, 0 }
+  { sizeof(tenebra_light), 0, {0, 0, 0}, {0, 1, 0}, {0, -1, 0}, -1, 0, NULL }
 
-/** A planar convex polygon that shines to one side. */
+/** A planar convex polygon that shines to one side; or a sun, which has no place. */
 typedef struct tenebra_area_light {
   size_t struct_size;    /**< sizeof(tenebra_area_light) */
   const float* vertices; /**< x, y, z of each, counter-clockwise seen from the lit side */
   size_t vertex_count;   /**< 3 to 14 */
+  /** x, y, z of each vertex in place of vertices; may be null. */
+  const double* vertices_doubles;
+  /** If not 0, a sun this wide in degrees, 1e-6 to 90: a disc at infinity. It has no vertices. */
+  double sun_diameter_deg;
+  float to_sun[3]; /**< towards the sun, any length but zero */
 } tenebra_area_light;
 /** Default values. */
-#define TENEBRA_AREA_LIGHT_INIT \
-  { sizeof(tenebra_area_light), NULL, 0 }
+#define TENEBRA_AREA_LIGHT_INIT                       \
+  {                                                   \
+    sizeof(tenebra_area_light), NULL, 0, NULL, 0.0, { \
+      0, 1, 0                                         \
+    }                                                 \
+  }
 
 /** Options of all calls. */
 typedef struct tenebra_options {

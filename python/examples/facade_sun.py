@@ -12,8 +12,6 @@ import numpy as np
 import tenebra
 
 WIDTH, HEIGHT, STREET = 30.0, 15.0, 14.0  # metres: the facade faces south (+z), the other house stands beyond the street
-SUN_RADIUS = np.radians(0.2665)
-FAR = 1e5  # metres: where the sun's disc stands, large as it is seen
 
 
 def box(low, high):
@@ -42,15 +40,6 @@ def towards_sun(hour, day, latitude):
     return np.array([east, up, south])
 
 
-def sun_disc(to_sun):
-    """The sun as a light, facing the street."""
-    x = np.cross((0, 1, 0), to_sun)
-    x /= np.linalg.norm(x)
-    y = np.cross(to_sun, x)
-    radius = FAR * np.tan(SUN_RADIUS)
-    return tenebra.AreaLight.disc(FAR * to_sun, radius * y, radius * x)  # shines along cross(y, x), away from the sun
-
-
 def main():
     arguments = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     arguments.add_argument("--out", default="facade_sun.png")
@@ -73,7 +62,7 @@ def main():
         to_sun = towards_sun(hour, options.day, options.latitude)
         share = 0.0
         if to_sun[1] > 0:
-            fraction, _ = tracer.soft_visibility(geometry, points, sun_disc(to_sun), normals=normals)
+            fraction, _ = tracer.soft_visibility(geometry, points, tenebra.AreaLight.sun(to_sun), normals=normals)
             hours += fraction * options.step / 60
             share = fraction.mean()
         lit.append(share)

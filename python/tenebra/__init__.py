@@ -4,8 +4,9 @@ Lengths are metres, space is right-handed. Arrays are numpy's: a contiguous arra
 place, any other is converted. Answers are new arrays of the points' shape.
 
 Triangles are given as an array (n, 3, 3) of corners, as a pair (positions (v, 3), indices (n, 3)), or as a
-Geometry, which keeps them for many calls. Their positions are rounded once to float32 and taken as exact from there
-on; points are float64 and taken as exact. Calls that ask about points, and render, release Python's lock, end on
+Geometry, which keeps them for many calls. An offset of whole numbers is subtracted from float64 coordinates far from
+the origin (maps), from points and from lights; then positions are rounded once to float32 and taken as exact. Points
+are float64. Calls that ask about points, and render, release Python's lock, end on
 Ctrl-C, and take the keywords
 
 threads: the largest number of threads to use; 0: all cores. Answers do not depend on it.
@@ -24,7 +25,7 @@ from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from . import _core
-from ._arrays import _indices, _numbers, _of_each, _rows, _vector
+from ._arrays import _indices, _numbers, _of_each, _positions, _rows, _vector
 
 __version__: str = _core.version
 __all__ = ["AreaLight", "DirectionalLight", "Geometry", "PointLight", "Scene", "Tracer", "ambient_occlusion",
@@ -39,13 +40,13 @@ Progress = Optional[Callable[[float], Any]]
 class Geometry:
     """Triangles that are kept, with their trees, for many calls.
 
-    positions: (v, 3) float32, metres, finite. triangles: (n, 3) uint32, each three vertices, counter-clockwise
-    seen from the front. casts_shadow: (n,) bool, or None: all cast. Any number of threads may ask about one
+    positions: (v, 3) float64 or float32, metres, finite. triangles: (n, 3) uint32, three vertices each,
+    counter-clockwise seen from the front. casts_shadow: (n,) bool, or None: all cast. Any number of threads may ask about one
     geometry at once, each with a Tracer of its own.
     """
 
     def __init__(self, positions: Any, triangles: Any, casts_shadow: Any = None) -> None:
-        corners = _rows("positions", positions, np.float32)
+        corners = _positions("positions", positions)
         ids = _indices("triangles", triangles)
         if corners.ndim != 2:
             raise ValueError(f"positions: found the shape {corners.shape}, expected (v, 3)")
@@ -60,17 +61,23 @@ class Geometry:
 
     @classmethod
     def from_corners(cls, corners: Any) -> Geometry:
-        """Makes a geometry from the corners of its triangles, (n, 3, 3) float32."""
-        array = _rows("triangles", corners, np.float32, "(n, 3, 3)")
+        """Makes a geometry from the corners of its triangles, (n, 3, 3) float64 or float32."""
+        array = _positions("triangles", corners, "(n, 3, 3)")
         if array.ndim != 3 or array.shape[1] != 3:
             raise ValueError(f"triangles: found the shape {array.shape}, expected (n, 3, 3)")
         return cls(array.reshape(-1, 3), np.arange(3 * len(array), dtype=np.uint32).reshape(-1, 3))
 
     def move_vertices(self, positions: Any) -> None:
-        """Gives the triangles other positions, (v, 3) float32, as many as before. Call it while no other thread
-        uses the geometry."""
-        array = _rows("positions", positions, np.float32)
+        """Gives the triangles other positions, (v, 3), as many as before. Call it while no other thread uses the
+        geometry."""
+        array = _positions("positions", positions)
         self._core.move_vertices(_of_each("positions", array, (self._vertices, 3)))
+
+
+    @property
+    def origin(self) -> Tuple[float, float, float]:
+        """What was subtracted from float64 positions; zeros where float32 holds them as they are."""
+        return self._core.origin
 
 
 Triangles = Union[Geometry, np.ndarray, Tuple[Any, Any]]
@@ -111,13 +118,13 @@ class DirectionalLight:
 
 
 class AreaLight:
-    """A planar convex polygon that shines to one side.
+    """A planar convex polygon that shines to one side; or a sun.
 
-    vertices: (3 to 14, 3) float32, metres, counter-clockwise seen from the lit side.
+    vertices: (3 to 14, 3), metres, counter-clockwise seen from the lit side.
     """
 
     def __init__(self, vertices: Any) -> None:
-        array = _rows("vertices", vertices, np.float32)
+        array = _rows("vertices", vertices, np.float64)
         if array.ndim != 2:
             raise ValueError(f"vertices: found the shape {array.shape}, expected (n, 3)")
         self._core = _core.AreaLight(array)
@@ -127,7 +134,7 @@ class AreaLight:
         """The corners are centre +- half_x +- half_y; it shines along cross(half_x, half_y)."""
         c, x, y = (np.array(_vector(*v), np.float64) for v in
                    (("centre", centre), ("half_x", half_x), ("half_y", half_y)))
-        return cls(np.array([c - x - y, c + x - y, c + x + y, c - x + y], np.float32))
+        return cls(np.array([c - x - y, c + x - y, c + x + y, c - x + y]))
 
     @classmethod
     def disc(cls, centre: Any, half_x: Any, half_y: Any) -> AreaLight:
@@ -137,13 +144,22 @@ class AreaLight:
                                            _vector("half_y", half_y))
         return light
 
+    @classmethod
+    def sun(cls, to_sun: Any, diameter_deg: float = 0.533) -> AreaLight:
+        """A sun in the direction `to_sun` (any length but zero), 1e-6 to 90 degrees wide: a disc infinitely far away,
+        as the regular polygon of 12 sides. It has no vertices."""
+        light = cls.__new__(cls)
+        light._core = _core.AreaLight.sun(_vector("to_sun", to_sun), float(diameter_deg))
+        return light
+
     @property
     def vertices(self) -> np.ndarray:
-        """The corners, (n, 3) float32, metres."""
+        """The corners, (n, 3) float64, metres."""
         return self._core.vertices
 
     @property
     def area_m2(self) -> float:
+        """Of a sun: the irradiance at radiance 1 on a surface that faces it."""
         return self._core.area_m2
 
 
@@ -382,7 +398,8 @@ class Scene:
             return self._core.render(frame, time, _keywords(options), points, linear, progress)
 
     def geometry(self, frame: int = 0, *, time: Optional[float] = None) -> Dict[str, np.ndarray]:
-        """The triangles of an instant: positions (v, 3) float32, normals (v, 3) float32 (zero: the face's),
+        """The triangles of an instant: positions (v, 3) float32, or float64 where coordinates
+        are far from the origin, turned or scaled; normals (v, 3) float32 (zero: the face's),
         triangles (n, 3) uint32, materials (n,) uint32, casts_shadow (n,) uint8. Every frame has the same
         triangles. Geometry takes the positions, triangles and casts_shadow among them."""
         return self._core.geometry(self._core.time_of(frame) if time is None else time)

@@ -22,6 +22,11 @@ def _rows(name: str, value: Any, dtype: Any, shape: str = "(n, 3)") -> np.ndarra
     return np.require(array, requirements="CA")
 
 
+def _positions(name: str, value: Any, shape: str = "(n, 3)") -> np.ndarray:
+    """Floats stay floats; all else is taken as doubles, so that map coordinates keep their digits."""
+    return _rows(name, value, np.float32 if np.asarray(value).dtype == np.float32 else np.float64, shape)
+
+
 def _indices(name: str, value: Any) -> np.ndarray:
     array = np.asarray(value)
     if array.dtype.kind not in "iu":
@@ -34,7 +39,7 @@ def _indices(name: str, value: Any) -> np.ndarray:
 
 
 def _vector(name: str, value: Any) -> List[float]:
-    array = _numbers(name, value, np.float32)
+    array = _numbers(name, value, np.float64)
     if array.shape != (3,):
         raise ValueError(f"{name}: found the shape {array.shape}, expected 3 numbers")
     if not np.isfinite(array).all():

@@ -14,6 +14,7 @@
 #include <array>
 #include <chrono>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -22,6 +23,7 @@
 
 #include "beside.h"
 #include "loaded_scene.h"
+#include "math/whole_origin.h"
 #include "render/log/frame_columns.h"
 #include "session/scene_summary.h"
 
@@ -87,7 +89,8 @@ py::array image(io::Image<T>&& from) {
   if (from.channels > 1) shape.push_back(from.channels);
   return given_away(std::move(from.pixels), std::move(shape));
 }
-py::tuple tuple_of(const glm::vec3& v) {
+template <class T>
+py::tuple tuple_of(const glm::vec<3, T>& v) {
   return py::make_tuple(v.x, v.y, v.z);
 }
 
@@ -157,8 +160,74 @@ QueryProgress noted_in(Work& work) {
   return [&work](double done) { work.done = done; };
 }
 
-void hard_mask(Tracer& tracer, const Geometry& geometry, const PointArrays& points, const ShadowLight& light,
+/// A light without an area, its place in the caller's coordinates.
+struct PlacedLight {
+  ShadowLight light;
+  glm::dvec3 position{0.0};
+
+  ShadowLight relative_to(const glm::dvec3& origin) const {
+    ShadowLight out = light;
+    out.position = glm::vec3(position - origin);
+    return out;
+  }
+};
+
+/// A light with an area, in the caller's coordinates; a sun has no place in them.
+struct PlacedAreaLight {
+  using Make = std::function<Expected<AreaLight>(const glm::dvec3& origin)>;
+  glm::dvec3 origin{0.0};
+  AreaLight light;  ///< relative to `origin`
+  Make make;        ///< the same relative to another
+
+  static PlacedAreaLight near(const glm::dvec3& origin, Make make) {
+    return {origin, checked(make(origin)), std::move(make)};
+  }
+  AreaLight relative_to(const glm::dvec3& other) const {
+    return light.at_infinity || other == origin ? light : checked(make(other));
+  }
+};
+
+glm::dvec3 vector_of(const std::array<double, 3>& v) {
+  return {v[0], v[1], v[2]};
+}
+glm::vec3 floats_of(const std::array<double, 3>& v) {
+  return glm::vec3(vector_of(v));
+}
+
+PlacedAreaLight polygon_light(const Array<double>& vertices) {
+  const std::span<const glm::dvec3> given = vectors<glm::dvec3>(vertices);
+  const std::vector<glm::dvec3> corners(given.begin(), given.end());
+  return PlacedAreaLight::near(math::whole_origin(corners), [corners](const glm::dvec3& origin) {
+    std::vector<glm::vec3> relative;
+    relative.reserve(corners.size());
+    for (const glm::dvec3& corner : corners) relative.emplace_back(corner - origin);
+    return make_area_light(relative);
+  });
+}
+
+PlacedAreaLight disc_light(const std::array<double, 3>& centre, const std::array<double, 3>& half_x,
+                           const std::array<double, 3>& half_y) {
+  const glm::dvec3 middle = vector_of(centre);
+  const glm::vec3 x = floats_of(half_x), y = floats_of(half_y);
+  return PlacedAreaLight::near(glm::round(middle), [=](const glm::dvec3& origin) {
+    return make_disc_light(glm::vec3(middle - origin), x, y);
+  });
+}
+
+PlacedAreaLight sun_light(const std::array<double, 3>& to_sun, double diameter_deg) {
+  return {glm::dvec3(0.0), checked(make_sun(floats_of(to_sun), diameter_deg)), {}};
+}
+
+py::array vertices_of(const PlacedAreaLight& light) {
+  std::vector<glm::dvec3> vertices;
+  for (const glm::vec3& v : light.light.vertices) vertices.push_back(light.origin + glm::dvec3(v));
+  const auto count = static_cast<py::ssize_t>(vertices.size());
+  return given_away_vectors(std::move(vertices), {count});
+}
+
+void hard_mask(Tracer& tracer, const Geometry& geometry, const PointArrays& points, const PlacedLight& placed,
                Array<std::uint8_t>& mask, int threads, const Report& report) {
+  const ShadowLight light = placed.relative_to(geometry.origin());
   const QueryPoints query = points.query();
   const auto to = room(mask);
   run_beside(tracer.beside, report, threads, [&](Work& work) {
@@ -167,8 +236,9 @@ void hard_mask(Tracer& tracer, const Geometry& geometry, const PointArrays& poin
 }
 
 void soft_visibility(Tracer& tracer, const Geometry& geometry, const PointArrays& points,
-                     const AreaLight& light, double error, std::optional<std::size_t> memory_bytes,
+                     const PlacedAreaLight& placed, double error, std::optional<std::size_t> memory_bytes,
                      Array<float>& fraction, Array<float>& irradiance, int threads, const Report& report) {
+  const AreaLight light = placed.relative_to(geometry.origin());
   const QueryPoints query = points.query();
   const auto to_fraction = room(fraction), to_irradiance = room(irradiance);
   SoftShadowConfig config;
@@ -192,39 +262,38 @@ void ambient_occlusion(Tracer& tracer, const Geometry& geometry, const PointArra
 
 void add_queries(py::module_& module) {
   py::class_<Geometry>(module, "Geometry")
-      .def(py::init([](const Array<float>& positions, const Array<std::uint32_t>& triangles,
+      .def(py::init([](const py::array& positions, const Array<std::uint32_t>& triangles,
                        const MaybeArray<std::uint8_t>& casts) {
-        return checked(
-            Geometry::create(vectors<glm::vec3>(positions), vectors<glm::uvec3>(triangles), values(casts)));
+        const auto made = [&](auto vertices) {
+          return checked(Geometry::create(vertices, vectors<glm::uvec3>(triangles), values(casts)));
+        };
+        if (py::isinstance<Array<double>>(positions))
+          return made(vectors<glm::dvec3>(py::cast<Array<double>>(positions)));
+        return made(vectors<glm::vec3>(py::cast<Array<float>>(positions)));
       }))
-      .def("move_vertices", [](Geometry& geometry, const Array<float>& positions) {
-        checked(geometry.move_vertices(vectors<glm::vec3>(positions)));
-      });
+      .def(
+          "move_vertices",
+          [](Geometry& geometry, const py::array& positions) {
+            if (py::isinstance<Array<double>>(positions))
+              return checked(geometry.move_vertices(vectors<glm::dvec3>(py::cast<Array<double>>(positions))));
+            checked(geometry.move_vertices(vectors<glm::vec3>(py::cast<Array<float>>(positions))));
+          })
+      .def_property_readonly("origin", [](const Geometry& geometry) { return tuple_of(geometry.origin()); });
   py::class_<PointArrays>(module, "PointArrays")
       .def(py::init<Array<double>, MaybeArray<std::uint32_t>, MaybeArray<float>, MaybeArray<std::int8_t>,
                     int>());
-  py::class_<ShadowLight>(module, "ShadowLight")
-      .def(py::init([](bool directional, std::array<float, 3> v, std::array<float, 3> axis, float cos_outer,
-                       float range_m) {
-        const glm::vec3 at{v[0], v[1], v[2]};
-        return ShadowLight{directional, at, at, {axis[0], axis[1], axis[2]}, cos_outer, range_m};
+  py::class_<PlacedLight>(module, "ShadowLight")
+      .def(py::init([](bool directional, const std::array<double, 3>& v, const std::array<double, 3>& axis,
+                       float cos_outer, float range_m) {
+        return PlacedLight{{directional, floats_of(v), floats_of(v), floats_of(axis), cos_outer, range_m},
+                           vector_of(v)};
       }));
-  py::class_<AreaLight>(module, "AreaLight")
-      .def(py::init([](const Array<float>& vertices) {
-        return checked(make_area_light(vectors<glm::vec3>(vertices)));
-      }))
-      .def_static(
-          "disc",
-          [](std::array<float, 3> c, std::array<float, 3> x, std::array<float, 3> y) {
-            return checked(make_disc_light({c[0], c[1], c[2]}, {x[0], x[1], x[2]}, {y[0], y[1], y[2]}));
-          })
-      .def_property_readonly("vertices",
-                             [](const AreaLight& light) {
-                               auto vertices = light.vertices;
-                               const auto count = static_cast<py::ssize_t>(vertices.size());
-                               return given_away_vectors(std::move(vertices), {count});
-                             })
-      .def_readonly("area_m2", &AreaLight::area_m2);
+  py::class_<PlacedAreaLight>(module, "AreaLight")
+      .def(py::init(&polygon_light))
+      .def_static("disc", &disc_light)
+      .def_static("sun", &sun_light)
+      .def_property_readonly("vertices", &vertices_of)
+      .def_property_readonly("area_m2", [](const PlacedAreaLight& light) { return light.light.area_m2; });
   py::class_<Tracer>(module, "PointTracer")
       .def(py::init<>())
       .def("hard_mask", &hard_mask)
@@ -234,11 +303,25 @@ void add_queries(py::module_& module) {
 
 // ---- Scenes ----
 
-py::dict geometry_dict(FrameGeometry&& geometry) {
+/// Positions of a scene, or directions, in the coordinates of its file.
+template <class Vector>
+std::vector<glm::dvec3> in_file(const FileFrame& frame, const std::vector<Vector>& positions) {
+  std::vector<glm::dvec3> out;
+  out.reserve(positions.size());
+  for (const Vector& p : positions) out.push_back(frame.to_file(glm::dvec3(p)));
+  return out;
+}
+void turn_to_file(const FileFrame& frame, std::vector<glm::vec3>& directions) {
+  for (glm::vec3& d : directions) d = glm::vec3(frame.direction_to_file(glm::dvec3(d)));
+}
+
+py::dict geometry_dict(const FileFrame& frame, FrameGeometry&& geometry) {
   const auto vertices = static_cast<py::ssize_t>(geometry.positions.size());
   const auto triangles = static_cast<py::ssize_t>(geometry.triangles.size());
   py::dict out;
-  out["positions"] = given_away_vectors(std::move(geometry.positions), {vertices});
+  turn_to_file(frame, geometry.normals);
+  out["positions"] = frame.is_identity() ? given_away_vectors(std::move(geometry.positions), {vertices})
+                                         : given_away_vectors(in_file(frame, geometry.positions), {vertices});
   out["normals"] = given_away_vectors(std::move(geometry.normals), {vertices});
   out["triangles"] = given_away_vectors(std::move(geometry.triangles), {triangles});
   out["materials"] = given_away(std::move(geometry.materials), {triangles});
@@ -251,15 +334,17 @@ py::list light_list(const LoadedScene& scene, double time_s) {
   const render::FrameInput input = scene.at(time_s);
   Scene edited;
   edited.lights = stage::lights_of(scene.staged().scene, scene.edits());
+  const FileFrame& frame = scene.staged().scene.frame;
+  const auto turned = [&](const glm::vec3& v) { return tuple_of(frame.direction_to_file(glm::dvec3(v))); };
   for (const WorldLight& placed : input.lights) {
     const Light light = light_at(edited, placed);
     py::dict entry;
     entry["type"] = std::string(session::light_type_name(light.type));
     entry["name"] = light.name;
-    entry["position"] = tuple_of(placed.position);
-    entry["direction"] = tuple_of(placed.direction);
-    entry["half_x"] = tuple_of(placed.axis_x);
-    entry["half_y"] = tuple_of(placed.axis_y);
+    entry["position"] = tuple_of(frame.to_file(glm::dvec3(placed.position)));
+    entry["direction"] = turned(placed.direction);
+    entry["half_x"] = turned(placed.axis_x);
+    entry["half_y"] = turned(placed.axis_y);
     entry["color"] = tuple_of(light.color);
     entry["intensity"] = light.intensity;
     entry["range_m"] = light.range_m.value_or(0.0f);
@@ -269,10 +354,11 @@ py::list light_list(const LoadedScene& scene, double time_s) {
   return out;
 }
 
-py::dict view_dict(const ViewRays& view) {
+py::dict view_dict(const FileFrame& frame, const ViewRays& view) {
+  const auto turned = [&](const glm::vec3& v) { return tuple_of(frame.direction_to_file(glm::dvec3(v))); };
   py::dict out;
-  out["eye"] = tuple_of(view.eye), out["d0"] = tuple_of(view.d0);
-  out["dx"] = tuple_of(view.dx), out["dy"] = tuple_of(view.dy);
+  out["eye"] = tuple_of(frame.to_file(glm::dvec3(view.eye))), out["d0"] = turned(view.d0);
+  out["dx"] = turned(view.dx), out["dy"] = turned(view.dy);
   out["orthographic"] = view.orthographic;
   return out;
 }
@@ -313,7 +399,7 @@ void add_aovs(const render::AovChoice& wanted, render::Aovs&& aovs, py::ssize_t 
 }
 
 /// The masks' numbers are the lights' places in the list that light_list gives.
-py::dict picture_dict(LoadedScene::Picture&& picture) {
+py::dict picture_dict(const FileFrame& frame, LoadedScene::Picture&& picture) {
   render::FrameResult& result = picture.result;
   const py::ssize_t height = result.image.height, width = result.image.width;
   py::dict out, masks, fractions;
@@ -327,12 +413,13 @@ py::dict picture_dict(LoadedScene::Picture&& picture) {
   out["masks"] = masks;
   out["visible_fraction"] = fractions;
   if (!picture.points.positions.empty()) {
-    out["positions"] = given_away_vectors(std::move(picture.points.positions), {height, width});
+    turn_to_file(frame, picture.normals);
+    out["positions"] = given_away_vectors(in_file(frame, picture.points.positions), {height, width});
     out["normals"] = given_away_vectors(std::move(picture.normals), {height, width});
   }
   add_aovs(picture.aovs, std::move(result.aovs), height, width, out);
   out["triangles"] = given_away(std::move(picture.points.triangles), {height, width});
-  out["view"] = view_dict(picture.view);
+  out["view"] = view_dict(frame, picture.view);
   out["timings"] = timings_dict(result.timings);
   out["notes"] = result.notes;
   return out;
@@ -364,11 +451,13 @@ void add_scenes(py::module_& module) {
                picture = std::move(*drawn);
                return {};
              });
-             return picture_dict(std::move(*picture));
+             return picture_dict(scene.staged().scene.frame, std::move(*picture));
            })
       .def("time_of", [](const Loaded& scene, int frame) { return checked(scene.time_of(frame)); })
-      .def("geometry", [](const Loaded& scene,
-                          double time_s) { return geometry_dict(std::move(scene.at(time_s).geometry)); })
+      .def("geometry",
+           [](const Loaded& scene, double time_s) {
+             return geometry_dict(scene.staged().scene.frame, std::move(scene.at(time_s).geometry));
+           })
       .def("lights", &light_list)
       .def_property_readonly("frames", [](const Loaded& scene) { return scene.staged().frames(); })
       .def_property_readonly("size",

@@ -60,6 +60,42 @@ def test_soft_visibility():
     assert disc.vertices.shape == (12, 3) and disc.area_m2 == pytest.approx(np.pi)
 
 
+def test_suns():
+    points, up = [[-1.0, 0, 0], [3, 0, 0]], [[0, 1, 0]] * 2
+    for to_sun in ((0, 1, 0), (0.0, 2.0, 0.1)):
+        fraction, _ = tenebra.soft_visibility((POSITIONS, INDICES), points, tenebra.AreaLight.sun(to_sun, 1), on=[1, 1],
+                                              normals=up)
+        assert fraction.tolist() == [0, 1]
+    assert tenebra.AreaLight.sun((0, 1, 0)).vertices.shape == (0, 3)
+    with pytest.raises(ValueError, match="sun"):
+        tenebra.AreaLight.sun((0, 0, 0))
+
+
+def test_map_coordinates():
+    """Far from the origin doubles keep their digits; at round places the bits are those of the origin."""
+    near, points = POSITIONS.astype(np.float64), np.array([[-1.0, 0, 0.5], [1, 0, 0], [-0.25, 0, 0]])
+    ask = dict(on=[1, 1, 1])
+    for offset in (np.array([691200.0, 0, 5334600]), np.array([691234.127, 100.5, 5334567.381])):
+        far = tenebra.Geometry(near + offset, INDICES)
+        assert np.abs(np.array(far.origin) - offset).max() <= 10.1 and np.mod(far.origin, 1).tolist() == [0] * 3
+        for light in (LIGHT, (0.3, 8, 0.1)):
+            expected = tenebra.hard_mask((near, INDICES), points, light, **ask)
+            assert (tenebra.hard_mask(far, points + offset, np.add(light, offset), **ask) == expected).all()
+        square = tenebra.AreaLight.rectangle(np.array([0, 4, 0]) + offset, (1, 0, 0), (0, 0, 1))
+        here, there = (tenebra.soft_visibility(*what, **ask)[0] for what in (
+            ((near, INDICES), points, SQUARE), (far, points + offset, square)))
+        assert (here == there).all() if offset[1] == 0 else here == pytest.approx(there, abs=1e-5)
+        assert np.abs(square.vertices - offset).max() <= 4 + 1e-6
+        floor = np.stack(np.meshgrid(np.arange(-6, 6, 0.37), [0.0], np.arange(-4, 4, 0.41)), -1).reshape(-1, 3)
+        on = np.where(floor[:, 0] + floor[:, 2] > 0, 0, 1)
+        suns = [tenebra.DirectionalLight((np.cos(angle), np.sin(angle), 0.3)) for angle in np.linspace(0.2, 2.9, 12)]
+        hours = [sum(tenebra.hard_mask(shape, floor + moved, sun, on=on) == 255 for sun in suns)
+                 for shape, moved in ((tenebra.Geometry(near, INDICES), 0), (far, offset))]
+        assert (hours[0] == hours[1]).all() and len(set(hours[0].tolist())) > 5
+    assert tenebra.Geometry(near, INDICES).origin == (0, 0, 0)
+    assert tenebra.Geometry(POSITIONS + np.float32(1e6), INDICES).origin == (0, 0, 0), "floats are what they are"
+
+
 def test_ambient_occlusion():
     ceiling = np.array([[-9, .5, 9], [0, .5, 9], [0, .5, -9], [-9, .5, -9]], np.float32)
     triangles = (np.concatenate([POSITIONS[:4], ceiling]), INDICES)

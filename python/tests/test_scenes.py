@@ -1,4 +1,6 @@
 """Scenes: the same bytes as the program's, in every frame and by own points, and what is refused."""
+import base64
+import json
 import os
 import pathlib
 import struct
@@ -65,6 +67,30 @@ def shadow_light(light):
         return tenebra.DirectionalLight([-x for x in light["direction"]])
     spot = {"spot_axis": light["direction"], "cone_rad": light["outer_cone_rad"]} if light["type"] == "spot" else {}
     return tenebra.PointLight(light["position"], range_m=light["range_m"], **spot)
+
+
+def test_map_coordinates(tmp_path):
+    """A plate over a floor under a node in map coordinates: what comes out is the file's."""
+    corners = np.array([[-4, 0, 4], [4, 0, 4], [4, 0, -4], [-1, 1, 1], [1, 1, 1], [1, 1, -1]], "<f4").tobytes()
+    buffer = "data:application/octet-stream;base64," + base64.b64encode(corners).decode()
+    place = [691234.25, 0, -5334567.5]
+    (tmp_path / "far.gltf").write_text(json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0, "translation": place}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3", "min": [-4, 0, -4],
+                       "max": [4, 1, 4]}],
+        "bufferViews": [{"buffer": 0, "byteLength": 72}], "buffers": [{"byteLength": 72, "uri": buffer}]}))
+    scene = tenebra.Scene.load(tmp_path / "far.gltf", floor="none")
+    shape = scene.geometry()
+    assert shape["positions"].dtype == np.float64
+    assert (shape["positions"] == np.frombuffer(corners, "<f4").reshape(6, 3) + np.array(place)).all()
+    picture = scene.render(size=SIZE, points=True, eye=(place[0], 6, place[2] + 0.5), look_at=place)
+    seen = picture["triangles"] != tenebra.no_triangle
+    assert seen.any() and np.abs(picture["positions"][seen] - place).max() < 4.001
+    geometry = tenebra.Geometry(shape["positions"], shape["triangles"], shape["casts_shadow"])
+    mask = tenebra.hard_mask(geometry, picture["positions"][seen], shadow_light(scene.lights()[0]),
+                             on=picture["triangles"][seen])
+    assert (mask == picture["masks"][0][seen]).mean() > 0.99, "the sides of triangles are the light's"
 
 
 # First and last frame, and the step: four frames of each of BART's scenes.

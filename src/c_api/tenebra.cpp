@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/fail.h"
 
@@ -135,6 +136,55 @@ tenebra_status ask(tenebra_tracer* tracer, const tenebra_geometry* geometry, con
   return status;
 }
 
+template <class Vector, class Number>
+tenebra_status set_geometry(tenebra_geometry* geometry, const Number* positions, std::size_t vertex_count,
+                            const std::uint32_t* triangles, std::size_t triangle_count,
+                            const std::uint8_t* casts_shadow) noexcept {
+  return guarded(geometry, [&]() -> Expected<void> {
+    if ((vertex_count > 0 && positions == nullptr) || (triangle_count > 0 && triangles == nullptr))
+      return base::fail("geometry: found null, expected {} vertices and {} triangles", vertex_count,
+                        triangle_count);
+    auto made = Geometry::create(span_of<Vector>(positions, vertex_count),
+                                 span_of<glm::uvec3>(triangles, triangle_count),
+                                 span_of<std::uint8_t>(casts_shadow, triangle_count));
+    if (!made) return tl::unexpected(made.error());
+    geometry->geometry = std::move(*made);
+    return {};
+  });
+}
+
+template <class Vector, class Number>
+tenebra_status move_geometry(tenebra_geometry* geometry, const Number* positions,
+                             std::size_t vertex_count) noexcept {
+  return guarded(geometry, [&]() -> Expected<void> {
+    if (!geometry->geometry) return base::fail("geometry: found none, expected tenebra_geometry_set first");
+    return geometry->geometry->move_vertices(span_of<Vector>(positions, vertex_count));
+  });
+}
+
+constexpr std::size_t most_vertices = 14;  // of make_area_light
+
+/// Three numbers relative to `origin`: of `doubles` unless it is null.
+glm::vec3 place_of(const float floats[3], const double* doubles, const glm::dvec3& origin) {
+  const glm::dvec3 place =
+      doubles == nullptr ? glm::dvec3(vector_of(floats)) : glm::dvec3(doubles[0], doubles[1], doubles[2]);
+  return glm::vec3(place - origin);
+}
+
+Expected<AreaLight> area_light(const tenebra_area_light& light, const glm::dvec3& origin) {
+  if (light.sun_diameter_deg != 0) return make_sun(vector_of(light.to_sun), light.sun_diameter_deg);
+  const bool given = light.vertices != nullptr || light.vertices_doubles != nullptr;
+  if (given && light.vertex_count > most_vertices)
+    return base::fail("area light: found a polygon of {} vertices, expected 3 to {}", light.vertex_count,
+                      most_vertices);
+  std::vector<glm::vec3> vertices;
+  for (std::size_t i = 0; given && i < light.vertex_count; ++i)
+    vertices.push_back(light.vertices_doubles != nullptr
+                           ? place_of(nullptr, light.vertices_doubles + 3 * i, origin)
+                           : place_of(light.vertices + 3 * i, nullptr, origin));
+  return make_area_light(vertices);
+}
+
 }  // namespace
 }  // namespace tenebra::c_api
 
@@ -158,25 +208,21 @@ const char* tenebra_geometry_error(const tenebra_geometry* geometry) {
 tenebra_status tenebra_geometry_set(tenebra_geometry* geometry, const float* positions, size_t vertex_count,
                                     const uint32_t* triangles, size_t triangle_count,
                                     const uint8_t* casts_shadow) {
-  return guarded(geometry, [&]() -> Expected<void> {
-    if ((vertex_count > 0 && positions == nullptr) || (triangle_count > 0 && triangles == nullptr))
-      return base::fail("geometry: found null, expected {} vertices and {} triangles", vertex_count,
-                        triangle_count);
-    auto made = Geometry::create(span_of<glm::vec3>(positions, vertex_count),
-                                 span_of<glm::uvec3>(triangles, triangle_count),
-                                 span_of<std::uint8_t>(casts_shadow, triangle_count));
-    if (!made) return tl::unexpected(made.error());
-    geometry->geometry = std::move(*made);
-    return {};
-  });
+  return set_geometry<glm::vec3>(geometry, positions, vertex_count, triangles, triangle_count, casts_shadow);
+}
+tenebra_status tenebra_geometry_set_doubles(tenebra_geometry* geometry, const double* positions,
+                                            size_t vertex_count, const uint32_t* triangles,
+                                            size_t triangle_count, const uint8_t* casts_shadow) {
+  return set_geometry<glm::dvec3>(geometry, positions, vertex_count, triangles, triangle_count, casts_shadow);
 }
 
 tenebra_status tenebra_geometry_move(tenebra_geometry* geometry, const float* positions,
                                      size_t vertex_count) {
-  return guarded(geometry, [&]() -> Expected<void> {
-    if (!geometry->geometry) return base::fail("geometry: found none, expected tenebra_geometry_set first");
-    return geometry->geometry->move_vertices(span_of<glm::vec3>(positions, vertex_count));
-  });
+  return move_geometry<glm::vec3>(geometry, positions, vertex_count);
+}
+tenebra_status tenebra_geometry_move_doubles(tenebra_geometry* geometry, const double* positions,
+                                             size_t vertex_count) {
+  return move_geometry<glm::dvec3>(geometry, positions, vertex_count);
 }
 
 tenebra_tracer* tenebra_tracer_create(void) {
@@ -202,12 +248,13 @@ tenebra_status tenebra_hard_mask(tenebra_tracer* tracer, const tenebra_geometry*
   return ask(tracer, geometry, points, options, [&](const Question& q) -> Expected<void> {
     const auto known = known_members(light, tenebra_light TENEBRA_LIGHT_INIT, "light");
     if (!known) return tl::unexpected(known.error());
-    const ShadowLight shadow{.directional = known->directional != 0,
-                             .position = vector_of(known->position),
-                             .to_light = vector_of(known->to_light),
-                             .spot_axis = vector_of(known->spot_axis),
-                             .spot_cos_outer = known->spot_cos_outer,
-                             .range_m = known->range_m};
+    const ShadowLight shadow{
+        .directional = known->directional != 0,
+        .position = place_of(known->position, known->position_doubles, q.geometry->origin()),
+        .to_light = vector_of(known->to_light),
+        .spot_axis = vector_of(known->spot_axis),
+        .spot_cos_outer = known->spot_cos_outer,
+        .range_m = known->range_m};
     return tracer->tracer.hard_mask(*q.geometry, q.points, shadow, {},
                                     answers(mask, q.points.positions.size()), &tracer->stop, q.progress);
   });
@@ -220,7 +267,7 @@ tenebra_status tenebra_soft_visibility(tenebra_tracer* tracer, const tenebra_geo
   return ask(tracer, geometry, points, options, [&](const Question& q) -> Expected<void> {
     const auto known = known_members(light, tenebra_area_light TENEBRA_AREA_LIGHT_INIT, "light");
     if (!known) return tl::unexpected(known.error());
-    const auto area = make_area_light(span_of<glm::vec3>(known->vertices, known->vertex_count));
+    const auto area = area_light(*known, q.geometry->origin());
     if (!area) return tl::unexpected(area.error());
     SoftShadowConfig config;
     config.error_255 = q.options.soft_error;

@@ -56,15 +56,15 @@ double contact_height(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3
   return tau_sum * std::sqrt(x * x + y * y + z * z);
 }
 
-ExactShadow::ExactShadow(const ViewRays& view, const TriangleView& triangles, const ShadowLight& light,
+ExactShadow::ExactShadow(const ViewRays& view, const OracleTriangles& triangles, const ShadowLight& light,
                          const HardShadowConfig& config)
     : view_(view), triangles_(triangles), light_(light), config_(config), boxes_(triangles, {}) {
-  const std::size_t count = triangles.triangles.size();
+  const std::size_t count = triangles.view.triangles.size();
   light_sides_.resize(count);
   casts_.resize(count);
   for (std::uint32_t id = 0; id < count; ++id) {
     light_sides_[id] = light_side(id);
-    const bool flagged = triangles.casts_shadow.empty() || triangles.casts_shadow[id] != 0;
+    const bool flagged = triangles.view.casts_shadow.empty() || triangles.view.casts_shadow[id] != 0;
     const bool away = light_sides_[id] < 0;
     casts_[id] = light_sides_[id] != 0 && flagged && (away || !config.cull_front);
   }
@@ -72,9 +72,7 @@ ExactShadow::ExactShadow(const ViewRays& view, const TriangleView& triangles, co
 }
 
 ExactShadow::Corners ExactShadow::corners(std::uint32_t id) const {
-  const glm::uvec3 t = triangles_.triangles[id];
-  return {glm::dvec3(triangles_.positions[t.x]), glm::dvec3(triangles_.positions[t.y]),
-          glm::dvec3(triangles_.positions[t.z])};
+  return {triangles_.corner(id, 0), triangles_.corner(id, 1), triangles_.corner(id, 2)};
 }
 
 /// +1: the light sees the front; -1: the back; 0: edge-on, no area, or not finite.

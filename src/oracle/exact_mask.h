@@ -36,7 +36,7 @@ struct ExactAnswer {
 /// The exact answer for one light. Keeps references to what `triangles` refers to.
 class ExactShadow {
 public:
-  ExactShadow(const ViewRays& view, const TriangleView& triangles, const ShadowLight& light,
+  ExactShadow(const ViewRays& view, const OracleTriangles& triangles, const ShadowLight& light,
               const HardShadowConfig& config);
 
   /// The sample's value, counted in `stats`. `id`: not no_triangle.
@@ -60,7 +60,7 @@ private:
   bool in_reach(const glm::dvec3& point) const;
 
   ViewRays view_;
-  TriangleView triangles_;
+  OracleTriangles triangles_;
   ShadowLight light_;
   HardShadowConfig config_;
   std::vector<int> light_sides_;    ///< side of the triangle's plane that the light is on; 0: none

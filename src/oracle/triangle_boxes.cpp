@@ -6,10 +6,10 @@
 namespace tenebra::oracle {
 namespace {
 
-glm::dvec3 doubled_centre(const TriangleView& view, std::uint32_t id) {
+glm::dvec3 doubled_centre(const OracleTriangles& triangles, std::uint32_t id) {
   glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
   for (int k = 0; k < 3; ++k) {
-    const glm::dvec3 p(view.positions[view.triangles[id][k]]);
+    const glm::dvec3 p = triangles.corner(id, k);
     low = glm::min(low, p), high = glm::max(high, p);
   }
   return low + high;
@@ -17,12 +17,12 @@ glm::dvec3 doubled_centre(const TriangleView& view, std::uint32_t id) {
 
 }  // namespace
 
-TriangleBoxes::TriangleBoxes(const TriangleView& triangles, std::vector<std::uint32_t> ids)
+TriangleBoxes::TriangleBoxes(const OracleTriangles& triangles, std::vector<std::uint32_t> ids)
     : ids_(std::move(ids)) {
   if (!ids_.empty()) split(triangles, 0, static_cast<std::uint32_t>(ids_.size()));
 }
 
-void TriangleBoxes::split(const TriangleView& view, std::uint32_t first, std::uint32_t count) {
+void TriangleBoxes::split(const OracleTriangles& triangles, std::uint32_t first, std::uint32_t count) {
   const std::size_t index = nodes_.size();
   Node node;
   node.low = glm::dvec3(std::numeric_limits<double>::infinity());
@@ -30,10 +30,10 @@ void TriangleBoxes::split(const TriangleView& view, std::uint32_t first, std::ui
   glm::dvec3 centre_low = node.low, centre_high = node.high;
   for (std::uint32_t i = first; i < first + count; ++i) {
     for (int k = 0; k < 3; ++k) {
-      const glm::dvec3 p(view.positions[view.triangles[ids_[i]][k]]);
+      const glm::dvec3 p = triangles.corner(ids_[i], k);
       node.low = glm::min(node.low, p), node.high = glm::max(node.high, p);
     }
-    const glm::dvec3 centre = doubled_centre(view, ids_[i]);
+    const glm::dvec3 centre = doubled_centre(triangles, ids_[i]);
     centre_low = glm::min(centre_low, centre), centre_high = glm::max(centre_high, centre);
   }
   node.first = first, node.count = count;
@@ -44,14 +44,14 @@ void TriangleBoxes::split(const TriangleView& view, std::uint32_t first, std::ui
   const std::uint32_t half = count / 2;
   const auto begin = ids_.begin() + first;
   std::nth_element(begin, begin + half, begin + count, [&](std::uint32_t a, std::uint32_t b) {
-    return doubled_centre(view, a)[axis] < doubled_centre(view, b)[axis];
+    return doubled_centre(triangles, a)[axis] < doubled_centre(triangles, b)[axis];
   });
-  split(view, first, half);
+  split(triangles, first, half);
   nodes_[index].right = static_cast<std::uint32_t>(nodes_.size());
-  split(view, first + half, count - half);
+  split(triangles, first + half, count - half);
 }
 
-// Boxes are exact (floats). With lo - P, d and their quotient each within 2^-53 of the real value, a quotient
+// Boxes are exact. With lo - P, d and their quotient each within 2^-53 of the real value, a quotient
 // is within 4 * 2^-53 of the real parameter, relatively; `widen` moves it outwards by 8 * 2^-53 of its size,
 // and by 1e-300 where it may have underflown. An infinite quotient stands for a parameter far beyond t_max,
 // and is kept. lo - P is 0 only if exactly so, d is 0 only if exactly so: then the axis asks whether P lies

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include <tenebra/hard_shadows.h>
@@ -18,10 +19,24 @@ struct Segment {
   double t_max;
 };
 
+/// Triangles whose vertices are the view's or, where they are given, these doubles.
+struct OracleTriangles {
+  TriangleView view;
+  std::span<const glm::dvec3> doubles;
+
+  OracleTriangles(const TriangleView& floats,
+                  std::span<const glm::dvec3> instead = {})  // NOLINT: a view will do
+      : view(floats), doubles(instead) {}
+  glm::dvec3 corner(std::uint32_t id, int k) const {
+    const std::uint32_t v = view.triangles[id][k];
+    return doubles.empty() ? glm::dvec3(view.positions[v]) : doubles[v];
+  }
+};
+
 class TriangleBoxes {
 public:
   /// A tree over the triangles `ids`.
-  TriangleBoxes(const TriangleView& triangles, std::vector<std::uint32_t> ids);
+  TriangleBoxes(const OracleTriangles& triangles, std::vector<std::uint32_t> ids);
 
   /// Calls visit(id) for every triangle whose box the segment may meet, until visit returns true.
   /// Conservative: a triangle that the segment meets is always visited.
@@ -70,7 +85,7 @@ private:
     std::uint32_t first = 0, count = 0;
   };
   static bool may_meet(const Segment& segment, const Node& node);
-  void split(const TriangleView& triangles, std::uint32_t first, std::uint32_t count);
+  void split(const OracleTriangles& triangles, std::uint32_t first, std::uint32_t count);
 
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> ids_;

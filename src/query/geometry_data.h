@@ -18,6 +18,7 @@ struct GeometryData {
   std::vector<std::uint8_t> casts_shadow;  ///< empty: all
   std::uint64_t revision = 0;              ///< counts moves
   double diagonal = 0;                     ///< of the vertices' box, metres
+  glm::dvec3 origin{0.0};                  ///< in the caller's coordinates
 };
 
 inline TriangleView view_of(const GeometryData& data) {

@@ -89,7 +89,7 @@ Expected<void> PointTracer::hard_mask(const Geometry& geometry, const QueryPoint
           s.seen.sides[pixel] = static_cast<std::int8_t>(side != 0 ? side : light_side(triangle));
           continue;
         }
-        const dvec3 to_light = towards(light, points.positions[point]);
+        const dvec3 to_light = towards(light, s.place_of(points, point));
         const dvec3 normal(query::normal_of(points, point));
         if (normal != dvec3(0.0) && !(glm::dot(normal, to_light) > 0)) continue;
         s.seen.triangles[pixel] = free_point;

@@ -48,6 +48,11 @@ struct TracerState {
     return view;
   }
 
+  /// Where a point is, relative to the geometry's origin.
+  glm::dvec3 place_of(const QueryPoints& points, std::size_t i) const {
+    return points.positions[i] - followed->origin;
+  }
+
   /// A portion's points; which triangles they lie on, and on which sides, is not set yet.
   void begin(const QueryPoints& points, const Portion& portion) {
     seen.width = portion.width(), seen.height = portion.height();
@@ -56,7 +61,7 @@ struct TracerState {
     seen.triangles.assign(portion.pixels(), no_triangle);
     seen.positions.resize(portion.pixels());
     each_point(portion, [&](std::size_t i, std::size_t pixel) {
-      seen.positions[pixel] = points.positions[portion.first() + i];
+      seen.positions[pixel] = place_of(points, portion.first() + i);
     });
   }
 };

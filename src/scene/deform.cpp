@@ -60,4 +60,23 @@ void evaluate_joints(const Skin& skin, const Pose& pose, DeformBuffers& out) {
   }
 }
 
+glm::dmat4 blend_joints(const Mesh& mesh, std::size_t v, const DeformBuffers& buffers) {
+  glm::dmat4 blend(0.0);
+  const auto add = [&](const glm::u16vec4& joints, const glm::vec4& weights) {
+    for (int k = 0; k < 4; ++k) {
+      const double weight = weights[k];
+      if (weight != 0.0) blend += buffers.joints[joints[k]] * weight;
+    }
+  };
+  add(mesh.joints[v], mesh.weights[v]);
+  if (!mesh.more_joints.empty()) add(mesh.more_joints[v], mesh.more_weights[v]);
+  return blend;
+}
+
+const Skin* skin_of(const Scene& scene, const Node& node, const Mesh& mesh) {
+  if (node.skin < 0 || mesh.joints.empty()) return nullptr;
+  const Skin& skin = scene.skins[static_cast<std::size_t>(node.skin)];
+  return skin.joints.empty() ? nullptr : &skin;
+}
+
 }  // namespace tenebra::scene

@@ -17,5 +17,9 @@ void deform_mesh(const Mesh& mesh, std::span<const double> weights, double time_
 
 /// Fills out.joints: each takes a vertex at rest to world space.
 void evaluate_joints(const Skin& skin, const Pose& pose, DeformBuffers& out);
+/// The joints' matrices mixed by the weights of vertex `v` of a skinned mesh.
+glm::dmat4 blend_joints(const Mesh& mesh, std::size_t v, const DeformBuffers& buffers);
+/// The skin that moves a node's mesh, or null.
+const Skin* skin_of(const Scene& scene, const Node& node, const Mesh& mesh);
 
 }  // namespace tenebra::scene

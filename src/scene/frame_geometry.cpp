@@ -79,15 +79,7 @@ std::size_t place_skinned(const Instance& instance, const std::vector<Vector>& p
   const Mesh& mesh = instance.mesh;
   std::size_t bad = 0;
   for (std::size_t v = 0; v < positions.size(); ++v) {
-    glm::dmat4 blend(0.0);
-    const auto add = [&](const glm::u16vec4& joints, const glm::vec4& weights) {
-      for (int k = 0; k < 4; ++k) {
-        const double weight = weights[k];
-        if (weight != 0.0) blend += out.deformed.joints[joints[k]] * weight;
-      }
-    };
-    add(mesh.joints[v], mesh.weights[v]);
-    if (!mesh.more_joints.empty()) add(mesh.more_joints[v], mesh.more_weights[v]);
+    const glm::dmat4 blend = scene::blend_joints(mesh, v, out.deformed);
     const glm::dvec3 p(blend * glm::dvec4(glm::dvec3(positions[v]), 1.0));
     bad += !store_position(p, out.positions[instance.first_vertex + v]);
     if (normals.empty()) continue;
@@ -185,12 +177,6 @@ void resize(const Scene& scene, FrameGeometry& out) {
   out.see_through.resize(any_see_through ? triangles : 0);
 }
 
-const Skin* skin_of(const Scene& scene, const Node& node, const Mesh& mesh) {
-  if (node.skin < 0 || mesh.joints.empty()) return nullptr;
-  const Skin& skin = scene.skins[static_cast<std::size_t>(node.skin)];
-  return skin.joints.empty() ? nullptr : &skin;
-}
-
 }  // namespace
 
 void evaluate_frame(const Scene& scene, int clip, double time_s, FrameGeometry& out) {
@@ -210,7 +196,8 @@ void evaluate_frame(const Scene& scene, int clip, double time_s, FrameGeometry& 
     const std::span<const double> weights(out.pose.weights.data() + pose.first_weight,
                                           mesh.morph_targets.size());
     out.parts.push_back(static_cast<std::uint32_t>(triangle));
-    const Instance instance{mesh, vertex, triangle, pose.visible, pose.to_world, skin_of(scene, node, mesh)};
+    const Instance instance{mesh,         vertex,        triangle,
+                            pose.visible, pose.to_world, scene::skin_of(scene, node, mesh)};
     write_instance(scene, instance, weights, shape_time_s, out);
     vertex += mesh.positions.size();
     triangle += mesh.triangles.size();

@@ -30,12 +30,17 @@ float radians(double degrees) {
 
 Viewpoint viewpoint_of(const StagedScene& staged, const settings::SceneSettings& settings) {
   Viewpoint viewpoint{.clip = staged.clip, .camera = staged.camera, .placed = {}};
-  if (settings.eye)
-    viewpoint.placed = PlacedCamera{.eye = *settings.eye,
-                                    .look_at = settings.look_at,
-                                    .up = settings.up,
-                                    .fov_deg = settings.fov_deg.value_or(PlacedCamera{}.fov_deg)};
+  if (settings.eye) viewpoint.placed = placed_camera(staged.scene.frame, settings);
   return viewpoint;
+}
+
+PlacedCamera placed_camera(const FileFrame& frame, const settings::SceneSettings& settings) {
+  PlacedCamera camera;
+  camera.eye = glm::vec3(frame.to_scene(settings.eye.value_or(frame.origin)));
+  camera.look_at = glm::vec3(frame.to_scene(settings.look_at));
+  if (settings.up) camera.up = glm::vec3(frame.direction_to_scene(glm::dvec3(*settings.up)));
+  camera.fov_deg = settings.fov_deg.value_or(camera.fov_deg);
+  return camera;
 }
 
 ViewRays rays_of(const StagedScene& staged, const Viewpoint& viewpoint, double time_s, settings::Size size) {

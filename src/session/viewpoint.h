@@ -9,7 +9,7 @@
 
 namespace tenebra::session {
 
-/// A camera that stands where the user puts it.
+/// A camera that stands where the user puts it, in the scene's coordinates.
 struct PlacedCamera {
   glm::vec3 eye{0, 0, 1};
   glm::vec3 look_at{0.0f};
@@ -22,6 +22,9 @@ struct Viewpoint {
   int camera = 0;                      ///< of the scene
   std::optional<PlacedCamera> placed;  ///< in place of the scene's
 };
+
+/// The one of the settings' eye, which are in the coordinates of the scene's file.
+PlacedCamera placed_camera(const FileFrame& frame, const settings::SceneSettings& settings);
 
 /// What the settings ask for.
 Viewpoint viewpoint_of(const StagedScene& staged, const settings::SceneSettings& settings);

@@ -126,10 +126,10 @@ Expected<void> take(const Expected<Value>& value, Target& target) {
 Expected<void> apply(const std::string& key, const std::string& value, stage::AddedLight& light) {
   if (key == "color") return take(parse_color(key, value), light.color);
   if (key == "intensity") return take(parse_factor(value), light.intensity);
-  if (key == "position") return take(parse_vector(value), light.position);
+  if (key == "position") return take(parse_place(value), light.position);
   if (key == "direction") {
     if (auto taken = take(parse_vector(value), light.direction); !taken) return taken;
-    if (light.direction != glm::vec3(0.0f)) return {};
+    if (*light.direction != glm::vec3(0.0f)) return {};
   }
   return base::fail("found {}={}, expected position=X,Y,Z, direction=X,Y,Z, color=R,G,B or intensity=VALUE",
                     key, value);
@@ -160,9 +160,10 @@ const char* kind_name(LightType type) {
 }
 
 std::string text_of(const stage::AddedLight& light) {
-  return fmt::format("{} position={} direction={} intensity={} color={}", kind_name(light.type),
-                     vector_text(light.position), vector_text(light.direction), light.intensity,
-                     vector_text(light.color));
+  const std::string direction =
+      light.direction ? fmt::format(" direction={}", vector_text(*light.direction)) : "";
+  return fmt::format("{} position={}{} intensity={} color={}", kind_name(light.type),
+                     place_text(light.position), direction, light.intensity, vector_text(light.color));
 }
 
 /// " KEY=VALUE ..." of what the edit changes.

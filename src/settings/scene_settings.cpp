@@ -9,6 +9,7 @@ SceneSettings settings_for(const std::string& file, const SceneSettings& before)
   scene.file = file;
   scene.import = before.import;
   scene.import.scene.clear();
+  scene.import.placement = {};
   scene.cutout_limit = before.cutout_limit;
   scene.cast_all = before.cast_all;
   scene.transfer = before.transfer;
@@ -25,7 +26,8 @@ SceneSettings settings_for(const std::string& file, const SceneSettings& before)
 
 Expected<void> check_scene_settings(const SceneSettings& scene) {
   if (scene.eye && *scene.eye == scene.look_at) return base::fail("--eye and --look-at are the same point");
-  if (scene.eye && scene.up == glm::vec3(0.0f)) return base::fail("--up is 0,0,0, expected a direction");
+  if (scene.eye && scene.up.value_or(glm::vec3(1)) == glm::vec3(0.0f))
+    return base::fail("--up is 0,0,0, expected a direction");
   return {};
 }
 

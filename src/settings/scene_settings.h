@@ -34,9 +34,10 @@ struct SceneSettings {
   std::optional<std::string> clip;
 
   std::optional<std::string> camera;
-  std::optional<glm::vec3> eye;
-  glm::vec3 look_at{0.0f};
-  glm::vec3 up{0, 1, 0};
+  // In the coordinates of the scene's file.
+  std::optional<glm::dvec3> eye;
+  glm::dvec3 look_at{0.0};
+  std::optional<glm::vec3> up;  ///< none: the file's up axis
   std::optional<double> fov_deg;
   std::optional<Size> size;
 

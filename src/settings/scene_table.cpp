@@ -14,6 +14,10 @@ constexpr std::array transfer_choices{Choice<Transfer>{"srgb", Transfer::srgb},
                                       Choice<Transfer>{"display", Transfer::display}};
 constexpr std::array floor_choices{Choice<bool>{"auto", true}, Choice<bool>{"none", false}};
 constexpr std::array surface_choices{Choice<bool>{"full", false}, Choice<bool>{"plain", true}};
+constexpr std::array up_choices{Choice<UpAxis>{"z", UpAxis::z}, Choice<UpAxis>{"y", UpAxis::y}};
+constexpr std::array unit_choices{Choice<double>{"m", 1}, Choice<double>{"cm", 0.01},
+                                  Choice<double>{"mm", 0.001}, Choice<double>{"ft", 0.3048},
+                                  Choice<double>{"in", 0.0254}};
 constexpr double above_0 = 1e-300, any_number = 1e300;
 
 Setting<SceneSettings> no_cast() {
@@ -28,6 +32,35 @@ Setting<SceneSettings> no_cast() {
         return {};
       },
       [](const SceneSettings& scene) { return scene.no_cast; });
+}
+
+/// auto, none or X,Y,Z.
+Setting<SceneSettings> offset() {
+  using formats::OffsetChoice;
+  const auto read = [](SceneSettings& scene, const std::string& text) -> Expected<void> {
+    formats::Placement& placement = scene.import.placement;
+    const auto place = parse_place(text);
+    placement.offset = is_word(text, "auto")   ? OffsetChoice::automatic
+                       : is_word(text, "none") ? OffsetChoice::none
+                                               : OffsetChoice::given;
+    if (placement.offset != OffsetChoice::given) return {};
+    if (!place) return base::fail("found {}, expected auto, none or three numbers X,Y,Z", text);
+    placement.given_offset = *place;
+    return {};
+  };
+  const auto texts = [](const SceneSettings& scene) -> std::vector<std::string> {
+    const formats::Placement& placement = scene.import.placement;
+    if (placement.offset == OffsetChoice::given) return {place_text(placement.given_offset)};
+    return {placement.offset == OffsetChoice::none ? "none" : "auto"};
+  };
+  return SceneRow::own(
+      {.name = "offset",
+       .value = "auto|none|X,Y,Z",
+       .help = "What is subtracted from the file's coordinates, in double, before they become floats; "
+               "auto: whole numbers near the middle of a scene that is far from the origin for its size, "
+               "else nothing",
+       .group = Group::scene},
+      read, texts);
 }
 
 Setting<SceneSettings> texture_path() {
@@ -79,9 +112,9 @@ Setting<SceneSettings> look_at() {
        .help = "Point that this camera looks at",
        .group = Group::camera,
        .needs = "eye"},
-      [](auto& scene) -> auto& { return scene.look_at; }, parse_vector, vector_text);
+      [](auto& scene) -> auto& { return scene.look_at; }, parse_place, place_text);
   row.texts = [](const SceneSettings& scene) {
-    return scene.eye ? std::vector<std::string>{vector_text(scene.look_at)} : std::vector<std::string>();
+    return scene.eye ? std::vector<std::string>{place_text(scene.look_at)} : std::vector<std::string>();
   };
   row.same = [texts = row.texts](const SceneSettings& a, const SceneSettings& b) {
     return texts(a) == texts(b);
@@ -97,6 +130,19 @@ void add_files(SceneRows& rows) {
        .standard = "the one that the file shows first",
        .group = Group::scene},
       [](auto& scene) -> auto& { return scene.import.scene; }));
+  rows.push_back(SceneRow::words(
+      {.name = "up-axis",
+       .help = "The file's axis that points up",
+       .standard = "what the format says, else y",
+       .group = Group::scene},
+      [](auto& scene) -> auto& { return scene.import.placement.up; }, up_choices));
+  rows.push_back(SceneRow::words(
+      {.name = "unit",
+       .help = "The unit of the file's coordinates",
+       .standard = "what the format says, else m",
+       .group = Group::scene},
+      [](auto& scene) -> auto& { return scene.import.placement.metres_per_unit; }, unit_choices));
+  rows.push_back(offset());
   rows.push_back(no_cast());
   rows.push_back(SceneRow::flag(
       {.name = "cast-all",
@@ -218,16 +264,17 @@ void add_camera(SceneRows& rows) {
   rows.push_back(SceneRow::value(
       {.name = "eye",
        .value = "X,Y,Z",
-       .help = "A camera at this place instead, in world space",
+       .help = "A camera at this place instead, in the coordinates of the file",
        .group = Group::camera,
        .needs = "look-at",
        .excludes = "camera"},
-      [](auto& scene) -> auto& { return scene.eye; }, parse_vector, vector_text));
+      [](auto& scene) -> auto& { return scene.eye; }, parse_place, place_text));
   rows.push_back(look_at());
   rows.push_back(SceneRow::value(
       {.name = "up",
        .value = "X,Y,Z",
        .help = "Direction that is up",
+       .standard = "the file's up axis",
        .group = Group::camera,
        .needs = "eye"},
       [](auto& scene) -> auto& { return scene.up; }, parse_vector, vector_text));

@@ -32,17 +32,25 @@ std::optional<double> finite_from(std::string_view text) {
   return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
-Expected<glm::vec3> parse_vector(const std::string& text) {
+Expected<glm::dvec3> parse_place(const std::string& text) {
   const auto parts = split(text, ',');
-  glm::vec3 vector(0.0f);
+  glm::dvec3 place(0.0);
   bool is_vector = parts.size() == 3;
   for (int i = 0; is_vector && i < 3; ++i) {
     const auto value = finite_from(parts[static_cast<std::size_t>(i)]);
-    if (value) vector[i] = static_cast<float>(*value);
-    is_vector = value && std::isfinite(vector[i]);
+    if (value) place[i] = *value;
+    is_vector = value && std::isfinite(static_cast<float>(*value));
   }
   if (!is_vector) return base::fail("found {}, expected three numbers X,Y,Z, like 0,1.5,-4", text);
-  return vector;
+  return place;
+}
+
+std::string place_text(const glm::dvec3& v) {
+  return fmt::format("{},{},{}", v.x, v.y, v.z);
+}
+
+Expected<glm::vec3> parse_vector(const std::string& text) {
+  return parse_place(text).map([](const glm::dvec3& place) { return glm::vec3(place); });
 }
 
 std::string vector_text(const glm::vec3& v) {

@@ -42,6 +42,8 @@ struct LightSize {
 
 Expected<glm::vec3> parse_vector(const std::string& text);      ///< X,Y,Z, finite
 std::string vector_text(const glm::vec3& v);                    ///< as parse_vector takes it
+Expected<glm::dvec3> parse_place(const std::string& text);      ///< X,Y,Z, finite, all digits kept
+std::string place_text(const glm::dvec3& v);                    ///< as parse_place takes it
 Expected<double> parse_positive(const std::string& text);       ///< finite and above 0
 Expected<float> parse_factor(const std::string& text);          ///< above 0, at most 1e30
 Expected<double> parse_time(const std::string& text);           ///< seconds, finite

@@ -22,6 +22,13 @@ double first_time_s(const Scene& scene) {
   return scene.clips.empty() ? 0.0 : scene.clips.front().start_s;
 }
 
+/// A place in the coordinates of the scene's file.
+std::string in_file(const FileFrame& frame, const glm::dvec3& place) {
+  const glm::dvec3 p = frame.to_file(place);
+  return frame.is_identity() ? fmt::format("{:.4g}, {:.4g}, {:.4g}", p.x, p.y, p.z)
+                             : fmt::format("{:.3f}, {:.3f}, {:.3f}", p.x, p.y, p.z);
+}
+
 void add_camera(Scene& scene, const Framing& framing, bool own_shape) {
   Camera camera;
   camera.name = "added";
@@ -35,10 +42,10 @@ void add_camera(Scene& scene, const Framing& framing, bool own_shape) {
   node.camera = static_cast<int>(scene.cameras.size());
   scene.cameras.push_back(camera);
   scene.warnings.push_back(fmt::format(
-      "The scene has no camera; one was added at {:.4g}, {:.4g}, {:.4g}{}. At the start the scene "
-      "fills {:.0f} % of its picture.",
-      node.translation.x, node.translation.y, node.translation.z,
-      framing.lamp ? ", in the closed room that it is" : "", 100 * framing.subject_share));
+      "The scene has no camera; one was added at {}{}. At the start the scene fills {:.0f} % of its "
+      "picture.",
+      in_file(scene.frame, node.translation), framing.lamp ? ", in the closed room that it is" : "",
+      100 * framing.subject_share));
   scene.nodes.push_back(std::move(node));
 }
 

@@ -102,10 +102,11 @@ void add_shadow_floor(Scene& scene, const Subject& subject, double floor_y) {
   scene.materials.push_back(rim_material(static_cast<int>(scene.images.size())));
   scene.images.push_back(fading_picture());
   scene.nodes.push_back(std::move(node));
+  const glm::dvec3 in_file = scene.frame.to_file({0, floor_y, 0});
   scene.warnings.push_back(fmt::format(
       "The scene has neither light nor floor; a floor that shows its shadow was added at a height "
       "of {:.4g} (--floor none leaves it out).",
-      floor_y));
+      scene.frame.up == UpAxis::z ? in_file.z : in_file.y));
 }
 
 }  // namespace tenebra::stage

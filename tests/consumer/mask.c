@@ -74,6 +74,34 @@ static void ask(tenebra_tracer* tracer, const tenebra_geometry* geometry) {
          "a sentence on struct_size");
 }
 
+/* The same scene in map coordinates: an offset is subtracted before anything becomes a float. */
+static void ask_far_away(tenebra_tracer* tracer) {
+  const double east = 691234.127, north = 5334567.381;
+  double far_positions[21], far_at[6];
+  for (int i = 0; i < 21; ++i) far_positions[i] = positions[i] + (i % 3 == 0 ? east : i % 3 == 2 ? north : 0);
+  for (int i = 0; i < 6; ++i) far_at[i] = at[i] + (i % 3 == 0 ? east : i % 3 == 2 ? north : 0);
+  tenebra_geometry* geometry = tenebra_geometry_create();
+  expect(tenebra_geometry_set_doubles(geometry, far_positions, 7, triangles, 3, NULL) == TENEBRA_OK,
+         "a geometry from doubles");
+  tenebra_points points = TENEBRA_POINTS_INIT;
+  points.count = 2, points.positions = far_at, points.triangles = on;
+  const double lamp[3] = {east, 5, north};
+  tenebra_light light = TENEBRA_LIGHT_INIT;
+  light.position_doubles = lamp;
+  uint8_t mask[2] = {7, 7};
+  expect(tenebra_hard_mask(tracer, geometry, &points, &light, NULL, mask) == TENEBRA_OK && mask[0] == 255 &&
+             mask[1] == 0,
+         "the left point lit and the right one in shadow, far away");
+  tenebra_area_light sun = TENEBRA_AREA_LIGHT_INIT;
+  sun.sun_diameter_deg = 0.53;
+  float fraction[2] = {7, 7};
+  expect(tenebra_soft_visibility(tracer, geometry, &points, &sun, NULL, fraction, NULL) == TENEBRA_OK &&
+             fraction[0] == 1 && fraction[1] == 0,
+         "a sun at the left and none at the right");
+  expect(tenebra_geometry_move_doubles(geometry, far_positions, 7) == TENEBRA_OK, "moved vertices");
+  tenebra_geometry_destroy(geometry);
+}
+
 int main(void) {
   expect(tenebra_abi_version() == TENEBRA_ABI_VERSION, "the library of this header");
   tenebra_geometry* geometry = tenebra_geometry_create();
@@ -86,6 +114,7 @@ int main(void) {
          "a sentence on the missing vertex");
   expect(tenebra_geometry_set(geometry, positions, 7, triangles, 3, NULL) == TENEBRA_OK, "a geometry");
   ask(tracer, geometry);
+  ask_far_away(tracer);
   expect(tenebra_geometry_move(geometry, positions, 7) == TENEBRA_OK, "moved vertices");
   expect(tenebra_geometry_move(geometry, positions, 6) == TENEBRA_FAILED, "as many vertices as before");
   tenebra_tracer_destroy(tracer);

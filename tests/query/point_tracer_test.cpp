@@ -4,6 +4,7 @@
 
 #include <tenebra/queries.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -247,6 +248,55 @@ TEST(PointTracer, StopsWhenAsked) {
   const auto done = PointTracer().hard_mask(geometry, {.positions = positions}, {}, {}, mask, &stop);
   ASSERT_FALSE(done.has_value());
   EXPECT_TRUE(is_stop(done));
+}
+
+/// The floor and the plate moved by whole metres, as doubles, and points on the floor.
+struct Moved {
+  dvec3 by;
+  Soup soup = floor_and_plate();
+  std::vector<dvec3> positions, at;
+  std::vector<std::uint32_t> on;
+
+  explicit Moved(const dvec3& offset) : by(offset) {
+    for (const vec3& p : soup.positions) positions.push_back(dvec3(p) + by);
+    for (int i = 0; i < 256; ++i) {
+      at.push_back(by + dvec3(0.5 * (i % 16) - 6, 0, 0.5 * (i / 16) - 4));
+      on.push_back(0.5 * (i % 16) - 6 + 0.5 * (i / 16) - 4 > 0 ? 0 : 1);
+    }
+  }
+  Geometry geometry() const { return Geometry::create(positions, soup.triangles).value(); }
+};
+
+TEST(PointTracer, GivesTheSameBitsFarFromTheOrigin) {
+  const Moved here({0, 0, 0}), there({691200, 0, 5334600});
+  const Geometry near = here.geometry(), far = there.geometry();
+  EXPECT_EQ(near.origin(), dvec3(0));
+  EXPECT_EQ(far.origin(), there.by);
+  const QueryPoints near_points{.positions = here.at, .triangles = here.on},
+      far_points{.positions = there.at, .triangles = here.on};
+  PointTracer tracer;
+  const ShadowLight sun{.directional = true, .to_light = {0.3f, 1, 0.2f}};
+  const auto mask = hard_mask(tracer, near, near_points, sun);
+  EXPECT_GT(std::count(mask.begin(), mask.end(), 0), 20);
+  EXPECT_EQ(mask, hard_mask(tracer, far, far_points, sun));
+  const Soft share = soft(tracer, near, near_points, square_light()),
+             far_share = soft(tracer, far, far_points, square_light());
+  EXPECT_EQ(share.fraction, far_share.fraction);
+  EXPECT_EQ(share.irradiance, far_share.irradiance);
+  std::vector<float> open(here.at.size()), far_open(here.at.size());
+  ASSERT_TRUE(tracer.ambient_occlusion(near, near_points, {}, open));
+  ASSERT_TRUE(tracer.ambient_occlusion(far, far_points, {}, far_open));
+  EXPECT_EQ(open, far_open);
+}
+
+TEST(PointTracer, KeepsTheOriginWhereVerticesMove) {
+  const Moved there({691200, 0, 5334600});
+  Geometry geometry = there.geometry();
+  std::vector<dvec3> raised = there.positions;
+  for (dvec3& p : raised) p.x += 100;
+  ASSERT_TRUE(geometry.move_vertices(raised));
+  EXPECT_EQ(geometry.origin(), there.by);
+  EXPECT_EQ(geometry.view().positions[0], there.soup.positions[0] + vec3(100, 0, 0));
 }
 
 TEST(PointTracer, SaysWhatIsWrong) {

@@ -28,6 +28,7 @@ const std::map<std::string_view, std::string> samples{
     {"fov", "50"},
     {"size", "320x240"},
     {"scene", "second"},
+    {"offset", "691234,5334567.5,0"},
     {"no-cast", "glass"},
     {"texture-path", "."},
     {"environment", "sky.hdr"},

@@ -75,6 +75,11 @@ std::vector<io::exr::Text> texts_of(const RenderPlan& plan, std::span<const rend
       {"tenebra/colours", plan.staged->scene.transfer == Transfer::srgb
                               ? "linear, of the primaries of sRGB, before exposure and tone"
                               : "display values, as the scene states them, before exposure and tone"}};
+  if (const FileFrame& file = plan.staged->scene.frame; !file.is_identity()) {
+    values["tenebra/origin"] = fmt::format("{} {} {}", file.origin.x, file.origin.y, file.origin.z);
+    values["tenebra/metres_per_unit"] = fmt::format("{}", file.metres_per_unit);
+    values["tenebra/up"] = file.up == UpAxis::z ? "z" : "y";
+  }
   for (const render::LogSetting& setting : settings) {
     std::string& value = values[setting.name == "program" ? "software" : "tenebra/" + setting.name];
     value += (value.empty() ? "" : "; ") + setting.value;

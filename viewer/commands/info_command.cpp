@@ -1,5 +1,6 @@
 // tenebra info: what a scene file holds, or which OpenGL the machine has, as text or JSON.
 #include <fmt/core.h>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -33,8 +34,8 @@ constexpr const char* info_examples =
     "  tenebra info scenes/city.glb --json | python3 -m json.tool\n"
     "  tenebra info --gl\n"
     "\n"
-    "Triangles and bounds are those of the first frame, in world space. Where the file does not number its\n"
-    "frames, they are counted at --fps.";
+    "Triangles and bounds are those of the first frame, in the coordinates of the file. Where the file does\n"
+    "not number its frames, they are counted at --fps.";
 
 struct InfoOptions {
   SceneOptions scene;
@@ -45,8 +46,46 @@ struct InfoOptions {
   bool gl = false;
 };
 
-Json list(glm::vec3 v) {
+template <class T>
+Json list(const glm::vec<3, T>& v) {
   return {v.x, v.y, v.z};
+}
+
+/// A place of the scene along the axes and from the zero of its file, in metres.
+Json metres_in_file(const FileFrame& frame, const glm::vec3& place) {
+  if (frame.is_identity()) return list(place);
+  return list(frame.to_file(glm::dvec3(place)) * frame.metres_per_unit);
+}
+Json turned_to_file(const FileFrame& frame, const glm::vec3& direction) {
+  return list(glm::vec3(frame.direction_to_file(glm::dvec3(direction))));
+}
+
+/// Which way the file's coordinates are taken, and what of it is no statement of the file's or the user's.
+Json coordinates_of(const Scene& scene, const InfoOptions& options) {
+  const formats::Placement& asked = options.scene.import.placement;
+  const bool stated = formats::states_coordinates(options.scene.file);
+  Json json{{"up", scene.frame.up == UpAxis::z ? "z" : "y"},
+            {"metres_per_unit", scene.frame.metres_per_unit},
+            {"offset", list(scene.frame.origin)}};
+  Json assumed = Json::array();
+  if (!stated && !asked.up) assumed.push_back("up");
+  if (!stated && !asked.metres_per_unit) assumed.push_back("metres_per_unit");
+  if (asked.offset == formats::OffsetChoice::automatic && scene.frame.origin != glm::dvec3(0.0))
+    assumed.push_back("offset");
+  json["assumed"] = assumed;
+  return json;
+}
+
+/// Low and high corners of the scene's bounds.
+Json bounds_of(const FileFrame& frame, const session::Bounds& bounds) {
+  const Json a = metres_in_file(frame, bounds.low), b = metres_in_file(frame, bounds.high);
+  Json json;
+  for (int axis = 0; axis < 3; ++axis) {  // Z that points up turns over
+    const bool in_order = a[axis] <= b[axis];
+    json["low"].push_back(in_order ? a[axis] : b[axis]);
+    json["high"].push_back(in_order ? b[axis] : a[axis]);
+  }
+  return json;
 }
 
 double degrees(float radians) {
@@ -102,8 +141,9 @@ Json lights_of(const Scene& scene, const session::SceneSummary& summary) {
   for (const WorldLight& placed : summary.lights) {
     const Light& light = scene.lights[static_cast<std::size_t>(placed.light)];
     Json entry{{"name", light.name}, {"type", session::light_type_name(light.type)}};
-    if (light.type != LightType::directional) entry["position_m"] = list(placed.position);
-    if (light.type != LightType::point) entry["direction"] = list(placed.direction);
+    if (light.type != LightType::directional)
+      entry["position_m"] = metres_in_file(scene.frame, placed.position);
+    if (light.type != LightType::point) entry["direction"] = turned_to_file(scene.frame, placed.direction);
     entry["color"] = list(light.color);
     entry["intensity"] = light.intensity;
     if (light.type == LightType::spot) {
@@ -152,9 +192,9 @@ Json shown_of(const Scene& scene) {
 Json describe(const Scene& scene, const InfoOptions& options) {
   const session::SceneSummary summary = session::summarize_scene(scene);
   Json json{{"file", options.scene.file}, {"name", scene.name}, {"counts", counts_of(scene, summary)}};
+  json["coordinates"] = coordinates_of(scene, options);
   json["bounds_m"] = nullptr;
-  if (summary.bounds)
-    json["bounds_m"] = {{"low", list(summary.bounds->low)}, {"high", list(summary.bounds->high)}};
+  if (summary.bounds) json["bounds_m"] = bounds_of(scene.frame, *summary.bounds);
   json["triangles_with"] = surfaces_of(summary.surfaces);
   json["colors"] = scene.transfer == Transfer::display ? "display values" : "linear, shown as sRGB";
   json["shown"] = shown_of(scene);
@@ -168,12 +208,19 @@ Json describe(const Scene& scene, const InfoOptions& options) {
   return json;
 }
 
-/// For people: numbers to six digits and without a negative zero, texts unquoted, vectors in parentheses.
+/// To six digits or, where these do not reach, to a thousandth; without a negative zero.
+std::string number_text(double number) {
+  if (std::abs(number) < 1e5 || std::abs(number) >= 1e12) return fmt::format("{:.6g}", number + 0.0);
+  return fmt::format("{}", std::round(number * 1000) / 1000);
+}
+
+/// For people: numbers in short, texts unquoted, vectors in parentheses.
 std::string text_of(const Json& value) {
   if (value.is_string() && value.get_ref<const std::string&>().empty()) return "-";
   if (value.is_string()) return value.get<std::string>();
-  if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>() + 0.0);
+  if (value.is_number_float()) return number_text(value.get<double>());
   if (!value.is_array()) return value.dump();
+  if (value.empty()) return "none";
   std::string text;
   for (const Json& entry : value) text += (text.empty() ? "(" : ", ") + text_of(entry);
   return text + ")";
@@ -199,6 +246,7 @@ void print_list(const Json& json, const char* key) {
 void print_text(const Json& json) {
   print_out("{}\n", json["file"].get<std::string>());
   for (const auto& [key, value] : json["counts"].items()) print_out("{}: {}\n", key, value.dump());
+  print_out("coordinates: {}\n", line_of(json["coordinates"]));
   print_out("bounds_m: {}\n", json["bounds_m"].is_null() ? "none" : line_of(json["bounds_m"]));
   print_out("triangles_with: {}\n", line_of(json["triangles_with"]));
   print_out("colors: {}\n", json["colors"].get<std::string>());

@@ -1,5 +1,6 @@
 // tenebra verify: are the shadows of a scene the answers of real arithmetic?
 #include <fmt/core.h>
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 #include "base/machine.h"
 #include "base/stopwatch.h"
 #include "commands/command.h"
+#include "commands/file_numbers.h"
 #include "commands/verify_report.h"
 #include "io/output_file.h"
 #include "options/config_file.h"
@@ -44,7 +46,10 @@ constexpr const char* verify_examples =
     "be: by the definition in tenebra/hard_shadows.h, over all triangles that its ray could meet, in "
     "doubles\n"
     "with a bound on their error and, where that leaves it open, in integers of any length. This code\n"
-    "(src/oracle) shares nothing with the tracer. Visible points, ids and lights are taken as given.\n"
+    "(src/oracle) shares nothing with the tracer. Visible points, ids and lights are taken as given. Where\n"
+    "floats cannot hold what the file says (coordinates far from the origin), hard masks are compared with "
+    "the\n"
+    "file's own numbers, in double.\n"
     "With --shadows soft the visible fractions of lights with an area are checked: which triangles hide what "
     "is\n"
     "found exactly, the area that they leave with a bound. A fraction may be off by as much as is promised:\n"
@@ -133,36 +138,45 @@ private:
     const render::FrameInput& input = session.placed();
     compute_visible_points(session.renderer().triangle_ids(), settings.width, settings.height, input.view,
                            triangle_view(input.geometry), points_);
+    file_ = file_numbers(*plan_.staged, planned.time_s, input, points_);
+    if (file_) verification_.rounding_m = std::max(verification_.rounding_m.value_or(0), file_->rounding_m);
     for (const render::LightMask& mask : result_.masks) {
       for (const render::DrawnLight& light : session.renderer().drawn_lights())
-        if (light.number == mask.light) check_light(input, planned.frame, light, mask, settings, stop);
+        if (light.number == mask.light) check_light(input, planned, light, mask, settings, stop);
     }
     return {};
   }
 
-  void check_light(const render::FrameInput& input, int frame, const render::DrawnLight& light,
-                   const render::LightMask& mask, const render::RenderSettings& settings, StopSignals& stop) {
+  void check_light(const render::FrameInput& input, const PlannedFrame& planned,
+                   const render::DrawnLight& light, const render::LightMask& mask,
+                   const render::RenderSettings& settings, StopSignals& stop) {
     std::vector<std::uint8_t> casters;
     const TriangleView triangles = render::casters_of(plan_.staged->scene, input.geometry, light, casters);
     const auto pixels = oracle::spread_samples(
         points_.triangles, options_.samples.value_or(light.area ? usual_fractions : all_samples),
-        static_cast<std::uint64_t>(frame) << 32 | static_cast<std::uint64_t>(mask.light));
+        static_cast<std::uint64_t>(planned.frame) << 32 | static_cast<std::uint64_t>(mask.light));
     with_threads(settings.threads, [&] {
       if (light.area)
-        check_fractions(input.view, frame, light, triangles, mask, pixels, stop);
+        check_fractions(input.view, planned.frame, light, triangles, mask, pixels, stop);
       else
-        check_mask(input.view, frame, light, triangles, mask, pixels, stop);
+        check_mask(input.view, planned, light, triangles, mask, pixels, stop);
     });
   }
 
-  void check_mask(const ViewRays& view, int frame, const render::DrawnLight& light,
+  void check_mask(const ViewRays& view, const PlannedFrame& planned, const render::DrawnLight& light,
                   const TriangleView& triangles, const render::LightMask& mask,
                   const std::vector<std::size_t>& pixels, StopSignals& stop) {
     base::Stopwatch watch;
-    const oracle::ExactShadow exact(view, triangles, render::shadow_light(light.light, light.placed),
-                                    plan_.settings.hard);
-    CheckedMask checked{.frame = frame, .light = mask.light, .width = plan_.settings.width, .check = {}};
-    checked.check = oracle::check_mask(exact, points_, mask.mask.pixels, pixels, &stop.flag());
+    const ShadowLight drawn = render::shadow_light(light.light, light.placed);
+    const oracle::ExactShadow exact =
+        file_ ? oracle::ExactShadow(file_->view, {triangles, file_->positions},
+                                    file_->light(*plan_.staged, planned.time_s, light.placed, drawn),
+                                    plan_.settings.hard)
+              : oracle::ExactShadow(view, triangles, drawn, plan_.settings.hard);
+    CheckedMask checked{
+        .frame = planned.frame, .light = mask.light, .width = plan_.settings.width, .check = {}};
+    checked.check =
+        oracle::check_mask(exact, file_ ? file_->points : points_, mask.mask.pixels, pixels, &stop.flag());
     checked.check_s = watch.lap_ms() / 1e3;
     verification_.masks.push_back(std::move(checked));
   }
@@ -192,6 +206,7 @@ private:
   const RenderPlan& plan_;
   render::FrameResult result_;
   VisiblePoints points_;
+  std::optional<FileNumbers> file_;  ///< of the frame, where floats are not fine
   Verification verification_;
 };
 
@@ -214,7 +229,9 @@ Expected<int> verify(const VerifyOptions& options) {
     return tl::unexpected(checked.error());
   if (auto limited = limit_memory(options.render.memory_mb); !limited) return tl::unexpected(limited.error());
   StopSignals stop(options.render.timeout_s, StopSignals::Start::at_once);
-  const auto plan = plan_render(options.render);
+  RenderOptions render = options.render;
+  render.scene.import.keep_unrounded = true;
+  const auto plan = plan_render(render);
   if (!plan) return tl::unexpected(plan.error());
   if (plan->settings.shadows == render::ShadowMode::none)
     return base::fail(

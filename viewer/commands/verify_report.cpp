@@ -173,6 +173,11 @@ std::string verification_text(const Verification& verification) {
     text += fmt::format("{}: {}\n", setting.name, setting.value);
   text += fmt::format("frames: {} of {}, masks: {}\n", verification.frames, verification.planned_frames,
                       verification.masks.size());
+  if (verification.rounding_m)
+    text += fmt::format(
+        "coordinates are far from the origin and rounded by up to {:.3g} m: hard masks are compared with the "
+        "file's own numbers\n",
+        *verification.rounding_m);
   if (!verification.masks.empty() || verification.fractions.empty()) text += mask_text(verification);
   if (!verification.fractions.empty()) text += fraction_text(verification);
   add_wrong(verification.masks, text);
@@ -191,6 +196,7 @@ std::string verification_json(const Verification& verification) {
   const oracle::ExactMaskStats stats = verification.stats();
   json["all"] = json_of(stats);
   json["all"]["wrong"] = verification.wrong();
+  if (verification.rounding_m) json["rounding_m"] = *verification.rounding_m;
   json["seconds"] = verification.seconds;
   json["samples_a_second"] = a_second(stats.samples, check_seconds(verification.masks));
   json["masks"] = Json::array();

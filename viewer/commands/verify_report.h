@@ -1,6 +1,7 @@
 // What `tenebra verify` found, as text and as JSON.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,8 @@ struct Verification {
   std::size_t planned_frames = 0;
   std::size_t frames = 0;  ///< that were checked whole
   double seconds = 0;      ///< with drawing and reading
+  /// The most that coordinates differ in frames whose masks are compared with the file's numbers.
+  std::optional<double> rounding_m;
 
   std::uint64_t wrong() const;
   oracle::ExactMaskStats stats() const;  ///< of the masks

@@ -127,7 +127,7 @@ void EventReport::state(const ViewState& state) {
                                  {"loop", state.clock.loop()},
                                  {"fixed_step", state.clock.fixed_step()},
                                  {"camera", name_of(state.camera_mode)},
-                                 {"free", camera_arguments(state.free)},
+                                 {"free", camera_arguments(state.free, state.scene->scene.frame)},
                                  {"active", state.active},
                                  {"a", method_arguments(state.slots[0])},
                                  {"b", method_arguments(state.slots[1])},

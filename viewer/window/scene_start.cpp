@@ -1,6 +1,7 @@
 #include "window/scene_start.h"
 
 #include "session/scene_summary.h"
+#include "session/viewpoint.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -13,8 +14,9 @@ const Clip* clip_of(const session::StagedScene& staged, int clip) {
   return clip < 0 ? nullptr : &staged.scene.clips[static_cast<std::size_t>(clip)];
 }
 
-FreeCamera start_camera(const SceneOptions& options) {
-  return {*options.eye, options.look_at, options.up, options.fov_deg.value_or(FreeCamera{}.fov_deg)};
+FreeCamera start_camera(const FileFrame& frame, const SceneOptions& options) {
+  const session::PlacedCamera placed = session::placed_camera(frame, options);
+  return {placed.eye, placed.look_at, placed.up, options.fov_deg.value_or(FreeCamera{}.fov_deg)};
 }
 
 void start_clock(ViewState& state, bool first, const ViewOptions& given, Wall now) {
@@ -61,7 +63,7 @@ void start_scene(ViewState& state, std::shared_ptr<const session::StagedScene> s
   start_clock(state, first, given, now);
   state.camera_mode = CameraMode::scene;
   if (state.options.eye) {
-    state.free = state.start = start_camera(state.options);
+    state.free = state.start = start_camera(state.scene->scene.frame, state.options);
     state.camera_mode = given.navigate;
   }
   state.pivot.reset();

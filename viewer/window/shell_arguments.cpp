@@ -43,7 +43,7 @@ std::string shell_arguments(const ViewState& state, double time_s, Size size) {
     add("--camera", number_or_name(scene.cameras, state.camera));
     if (state.options.fov_deg && !state.options.eye) add("--fov", fmt::format("{}", *state.options.fov_deg));
   } else {
-    text += camera_arguments(state.free) + " ";
+    text += camera_arguments(state.free, scene.frame) + " ";
   }
   text += fmt::format("--time {} --size {}x{}", time_s, size.width, size.height);
   const std::string method = method_arguments(state.slots[static_cast<std::size_t>(state.active)]);

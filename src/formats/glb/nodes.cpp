@@ -1,6 +1,7 @@
 // Nodes of a GLB. glTF has no hidden nodes that every program knows: those that stay hidden lose what they
 // hold.
 #include <fmt/core.h>
+#include <cmath>
 
 #include "formats/glb/writer.h"
 
@@ -27,10 +28,26 @@ int GlbWriter::written_mesh(std::size_t node) const {
   return mesh < 0 || hidden_[node] ? -1 : mesh_of_[static_cast<std::size_t>(mesh)];
 }
 
+namespace {
+
+/// Whether a matrix is a product of translation, rotation and scale, as glTF wants it.
+bool has_right_angles(const glm::dmat4& m) {
+  constexpr double slack = 1e-6;  // relative, as of the reader
+  const glm::dvec3 axes[] = {glm::dvec3(m[0]), glm::dvec3(m[1]), glm::dvec3(m[2])};
+  for (int i = 0; i < 3; ++i) {
+    const glm::dvec3 &a = axes[i], &b = axes[(i + 1) % 3];
+    if (!(std::abs(glm::dot(a, b)) <= slack * glm::length(a) * glm::length(b))) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 void GlbWriter::write_transform(std::size_t index, GlbJson& written) {
   const Node& node = scene_.nodes[index];
   if (node.matrix) {
     for (int i = 0; i < 16; ++i) written["matrix"].push_back((*node.matrix)[i / 4][i % 4]);
+    if (has_right_angles(*node.matrix)) return;
     losses.push_back(fmt::format(
         "nodes[{}] '{}': its matrix is no product of translation, rotation and scale; other programs may "
         "refuse it.",
@@ -72,6 +89,12 @@ void GlbWriter::write_nodes() {
       root_["nodes"][static_cast<std::size_t>(parent)]["children"].push_back(i);
     else
       roots.push_back(i);
+  }
+  if (const FileFrame& frame = scene_.frame; frame.origin != glm::dvec3(0)) {
+    const glm::dvec3 origin = frame.direction_to_scene(frame.origin * frame.metres_per_unit);
+    root_["nodes"].push_back({{"name", "origin"}, {"translation", {origin.x, origin.y, origin.z}}});
+    if (!roots.empty()) root_["nodes"].back()["children"] = roots;
+    roots = {scene_.nodes.size()};
   }
   root_["scene"] = 0;
   GlbJson shown = roots.empty() ? GlbJson::object() : GlbJson{{"nodes", roots}};

@@ -41,17 +41,18 @@ std::vector<Light> edited_lights(std::vector<Light> lights, const LightEdits& ed
   return lights;
 }
 
-std::vector<WorldLight> edited_lights(std::vector<WorldLight> lights, const LightEdits& edits) {
+std::vector<WorldLight> edited_lights(std::vector<WorldLight> lights, const LightEdits& edits,
+                                      const FileFrame& frame) {
   const auto resize = [](glm::vec3& half_axis, float size_m) {
     const float length = glm::length(half_axis);
     if (length > 0) half_axis *= 0.5f * size_m / length;
   };
   for (WorldLight& light : lights) {
     const LightEdit edit = edit_of(edits, light.light);
-    light.position += edit.move;
+    light.position += glm::vec3(frame.direction_to_scene(glm::dvec3(edit.move)));
     if (light.intensity) *light.intensity *= factor_of(edit);
     if (light.color && edit.color) light.color = edit.color;
-    if (edit.direction) turn(light, *edit.direction);
+    if (edit.direction) turn(light, glm::vec3(frame.direction_to_scene(glm::dvec3(*edit.direction))));
     if (!edit.size_m) continue;
     resize(light.axis_x, edit.size_m->x);
     resize(light.axis_y, edit.size_m->y);

@@ -11,13 +11,13 @@ namespace tenebra::stage {
 
 struct LightEdit {
   bool on = true;
-  float intensity = 1;                ///< factor of the scene's
-  glm::vec3 move{0.0f};               ///< metres, world space, added to where the animation has it
+  float intensity = 1;   ///< factor of the scene's
+  glm::vec3 move{0.0f};  ///< metres, along the axes of the scene's file, added to where the animation has it
   std::optional<glm::vec2> size_m;    ///< width and height, world space; none: the scene's, of a point
                                       ///< light that of the method
   std::optional<float> diameter_deg;  ///< of a directional light; 0: hard; none: the method's, or the scene's
   std::optional<glm::vec3> color;     ///< in place of the scene's
-  std::optional<glm::vec3> direction;  ///< world space, the way it shines; of any length but zero
+  std::optional<glm::vec3> direction;  ///< in the file's axes, the way it shines; of any length but zero
   bool deleted = false;                ///< off, and listed nowhere; as text it is off
 
   bool operator==(const LightEdit&) const = default;
@@ -31,8 +31,9 @@ LightEdit edit_of(const LightEdits& edits, int light);
 
 /// The lights of the scene with their colour and brightness as edited; those that are off have none.
 std::vector<Light> edited_lights(std::vector<Light> lights, const LightEdits& edits);
-/// The lights of an instant, moved, resized and turned as edited.
-std::vector<WorldLight> edited_lights(std::vector<WorldLight> lights, const LightEdits& edits);
+/// The lights of an instant, moved, resized and turned as edited. `frame`: the scene's.
+std::vector<WorldLight> edited_lights(std::vector<WorldLight> lights, const LightEdits& edits,
+                                      const FileFrame& frame);
 /// Sizes of the point and spot lights that have their own, for AreaLightSettings::own_size_m.
 std::vector<std::optional<glm::vec2>> edited_sizes_m(const LightEdits& edits);
 /// Diameters of the directional lights that have their own, for AreaLightSettings::own_sun_deg.

@@ -45,14 +45,17 @@ std::vector<WorldLight> unmoved_lights(const Scene& scene, const SceneEdits& edi
   for (const AddedLight& added : edits.added) {
     WorldLight& light = lights.emplace_back();
     light.light = static_cast<int>(lights.size()) - 1;
-    light.position = added.position;
-    light.direction = glm::normalize(added.direction);
+    light.position = glm::vec3(scene.frame.to_scene(added.position));
+    light.direction = glm::vec3(0, -1, 0);
+    if (added.direction)
+      light.direction =
+          glm::normalize(glm::vec3(scene.frame.direction_to_scene(glm::dvec3(*added.direction))));
   }
   return lights;
 }
 
 std::vector<WorldLight> placed_lights(const Scene& scene, const SceneEdits& edits, int clip, double time_s) {
-  return edited_lights(unmoved_lights(scene, edits, clip, time_s), edits.lights);
+  return edited_lights(unmoved_lights(scene, edits, clip, time_s), edits.lights, scene.frame);
 }
 
 std::vector<Material> materials_of(const Scene& scene, const SceneEdits& edits) {

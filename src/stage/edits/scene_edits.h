@@ -14,9 +14,9 @@ namespace tenebra::stage {
 /// A light that the scene does not have. Its number follows the scene's; LightEdits change it as any other.
 struct AddedLight {
   LightType type = LightType::point;
-  glm::vec3 position{0.0f};
-  glm::vec3 direction{0, -1, 0};  ///< any length but zero
-  float intensity = 1;            ///< without falloff: of the light at every distance
+  glm::dvec3 position{0.0};              ///< in the coordinates of the scene's file
+  std::optional<glm::vec3> direction{};  ///< in the file's axes, any length but zero; none: down
+  float intensity = 1;                   ///< without falloff: of the light at every distance
   glm::vec3 color{1.0f};
 
   bool operator==(const AddedLight&) const = default;

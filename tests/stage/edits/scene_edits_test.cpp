@@ -14,7 +14,7 @@ TEST(LightEdits, ChangeTheirLightAndNoOther) {
   edits[1] = {.intensity = 2, .move = {0, 1, 0}, .size_m = glm::vec2(6, 3)};
   std::vector<WorldLight> placed(3);
   for (int i = 0; i < 3; ++i) placed[static_cast<std::size_t>(i)].light = i;
-  const auto moved = edited_lights(placed, edits);
+  const auto moved = edited_lights(placed, edits, FileFrame{});
   ASSERT_EQ(moved.size(), 3u) << "numbers stay what they are";
   EXPECT_EQ(moved[1].position, vec3(0, 1, 0));
   EXPECT_EQ(moved[1].axis_x, vec3(3, 0, 0));
@@ -52,7 +52,7 @@ TEST(SceneEdits, TurnAreaLightsAsAWhole) {
   for (const vec3 to : {vec3(0, -3, 0), vec3(0, 0, 5), vec3(1, 1, 1), vec3(0, 0, -1)}) {
     LightEdits edits(1);
     edits[0].direction = to;
-    const WorldLight turned = edited_lights(std::vector{light}, edits).front();
+    const WorldLight turned = edited_lights(std::vector{light}, edits, FileFrame{}).front();
     EXPECT_NEAR(glm::distance(turned.direction, glm::normalize(to)), 0, 1e-6);
     EXPECT_NEAR(glm::dot(turned.direction, turned.axis_x), 0, 1e-6);
     EXPECT_NEAR(glm::distance(glm::normalize(glm::cross(turned.axis_x, turned.axis_y)), -turned.direction), 0,

@@ -32,7 +32,8 @@ Expected<SessionLog> SessionLog::start(const std::string& path, const ViewState&
                                              : fmt::format("{}", method.render.threads)},
       {"scene", state.options.file},
       {"clip", state.clip < 0 ? "none" : state.scene->scene.clips[static_cast<std::size_t>(state.clip)].name},
-      {"camera", follows ? fmt::format("--camera {}", state.camera) : camera_arguments(state.free)},
+      {"camera", follows ? fmt::format("--camera {}", state.camera)
+                         : camera_arguments(state.free, state.scene->scene.frame)},
       {"size", fmt::format("{}x{}", image.width, image.height)},
       {"method", method_arguments(method)},
       {"played", state.clock.fixed_step() ? "by fixed steps" : "by the clock, in the window"},

@@ -16,7 +16,8 @@ constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
 constexpr double least_angle_to_up_rad = 0.01;
 constexpr double notch = 0.9;  ///< distance after one notch of the wheel
 
-std::string text_of(glm::vec3 v) {
+template <class T>
+std::string text_of(const glm::vec<3, T>& v) {
   return fmt::format("{},{},{}", v.x, v.y, v.z);
 }
 
@@ -33,9 +34,12 @@ glm::dquat turn_of(glm::dvec3 direction, glm::dvec3 up, double right_rad, double
 
 }  // namespace
 
-std::string camera_arguments(const FreeCamera& camera) {
-  return fmt::format("--eye {} --look-at {} --up {} --fov {}", text_of(camera.eye), text_of(camera.target),
-                     text_of(camera.up), camera.fov_deg);
+std::string camera_arguments(const FreeCamera& camera, const FileFrame& frame) {
+  const auto place = [&](const glm::vec3& p) {
+    return frame.is_identity() ? text_of(p) : text_of(frame.to_file(glm::dvec3(p)));
+  };
+  return fmt::format("--eye {} --look-at {} --up {} --fov {}", place(camera.eye), place(camera.target),
+                     text_of(glm::vec3(frame.direction_to_file(glm::dvec3(camera.up)))), camera.fov_deg);
 }
 
 FreeCamera free_camera(const ViewRays& view, int width, int height, float distance_m) {

@@ -21,7 +21,7 @@ struct FreeCamera {
 };
 
 /// "--eye X,Y,Z --look-at X,Y,Z --up X,Y,Z --fov D", each number with as many digits as tell it apart.
-std::string camera_arguments(const FreeCamera& camera);
+std::string camera_arguments(const FreeCamera& camera, const FileFrame& frame);
 
 /// The free camera that sees what `view` sees, looking at a point `distance_m` away (orthographic views,
 /// which have no field of view: from far enough to see as much at that point).

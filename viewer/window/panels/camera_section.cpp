@@ -6,6 +6,17 @@
 
 namespace tenebra::viewer {
 
+namespace {
+
+/// A place in the scene as numbers of its file.
+void edit_place(const char* name, const FileFrame& frame, glm::vec3& place) {
+  glm::dvec3 numbers = frame.to_file(glm::dvec3(place));
+  if (ImGui::DragScalarN(name, ImGuiDataType_Double, &numbers.x, 3, 0.05f, nullptr, nullptr, "%.3f"))
+    place = glm::vec3(frame.to_scene(numbers));
+}
+
+}  // namespace
+
 void draw_camera_section(Ui& ui) {
   if (!ui.state.scene || !section(ui, "Camera", false)) return;
   ViewState& state = ui.state;
@@ -31,9 +42,9 @@ void draw_camera_section(Ui& ui) {
   }
   if (state.camera_mode != CameraMode::scene) {
     row(ui, "Eye");
-    ImGui::DragFloat3("##eye", &state.free.eye.x, 0.05f, 0, 0, "%.3f");
+    edit_place("##eye", state.scene->scene.frame, state.free.eye);
     row(ui, "Looks at");
-    ImGui::DragFloat3("##target", &state.free.target.x, 0.05f, 0, 0, "%.3f");
+    edit_place("##target", state.scene->scene.frame, state.free.target);
     row(ui, "Field of view");
     float fov = static_cast<float>(state.free.fov_deg);
     if (ImGui::SliderFloat("##fov", &fov, 5, 150, "%.1f degrees"))

@@ -30,10 +30,16 @@ glm::dvec3 tip_direction(const WorldLight& light, LightType type) {
   return type == LightType::directional ? -direction : direction;
 }
 
+/// A direction or a way, metres, in the axes of the scene's file.
+glm::vec3 in_file(const Ui& ui, const glm::dvec3& way) {
+  return glm::vec3(ui.state.scene->scene.frame.direction_to_file(way));
+}
+
 /// The lights as their edits place them, of those in the picture.
 std::vector<WorldLight> lights_in_view(const Ui& ui) {
   if (ui.picture->scene != ui.state.scene) return {};
-  std::vector<WorldLight> lights = stage::edited_lights(ui.picture->lights, ui.state.edits.lights);
+  std::vector<WorldLight> lights =
+      stage::edited_lights(ui.picture->lights, ui.state.edits.lights, ui.state.scene->scene.frame);
   // Until the next picture comes, this one has a light whose adding was undone.
   std::erase_if(lights, [&](const WorldLight& light) { return light.light >= ui.state.light_count(); });
   return lights;
@@ -171,7 +177,7 @@ void move_in_plane(Ui& ui, const Stage& stage, const WorldLight& light, ImVec2 p
   const glm::dvec3 across = now.x * glm::dvec3(view.dx) + now.y * glm::dvec3(view.dy);
   const glm::dvec3 to = glm::dvec3(view.eye) + (view.orthographic ? across + depth * glm::dvec3(view.d0)
                                                                   : depth * (glm::dvec3(view.d0) + across));
-  ui.state.light_edit(light.light).move += glm::vec3(to - at);
+  ui.state.light_edit(light.light).move += in_file(ui, to - at);
 }
 
 void move_along(Ui& ui, const Stage& stage, const WorldLight& light, int axis, ImVec2 moved) {
@@ -186,7 +192,7 @@ void move_along(Ui& ui, const Stage& stage, const WorldLight& light, int axis, I
   if (!(here.z > 0) || !(there.z > 0) || !(length2 > 0)) return;
   const double steps =
       (static_cast<double>(moved.x) * arrow.x + static_cast<double>(moved.y) * arrow.y) / length2;
-  if (std::abs(steps) < 1e4) ui.state.light_edit(light.light).move += glm::vec3(steps * step_m * along);
+  if (std::abs(steps) < 1e4) ui.state.light_edit(light.light).move += in_file(ui, steps * step_m * along);
 }
 
 /// Moves the tip on a sphere around the light; it stays on the half, in front or behind, that it is on.
@@ -199,7 +205,7 @@ void aim(Ui& ui, const Anchor& anchor, const WorldLight& light, LightType type, 
   if (length > 0.999) to *= 0.999 / length;
   const double depth = std::sqrt(1 - glm::dot(to, to));
   const glm::dvec3 tip = axes * glm::dvec3(to, before.z < 0 ? -depth : depth);
-  ui.state.light_edit(light.light).direction = glm::vec3(type == LightType::directional ? -tip : tip);
+  ui.state.light_edit(light.light).direction = in_file(ui, type == LightType::directional ? -tip : tip);
 }
 
 }  // namespace

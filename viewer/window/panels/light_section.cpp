@@ -177,8 +177,10 @@ void add_light(Ui& ui, LightType type) {
   const bool asked = ui.answer && !ui.answer->pixel.background;
   const glm::vec3 below = asked ? glm::vec3(ui.answer->pixel.point) : state.centre;
   const glm::vec3 above = below + glm::vec3(0, (asked ? 0.1f : 0.35f) * state.diagonal_m, 0);
-  stage::AddedLight light{.type = type, .position = above};
-  if (type == LightType::directional) light.direction = glm::normalize(glm::vec3(-0.5f, -1, -0.3f));
+  const FileFrame& frame = state.scene->scene.frame;
+  stage::AddedLight light{.type = type, .position = frame.to_file(glm::dvec3(above))};
+  if (type == LightType::directional)
+    light.direction = glm::vec3(frame.direction_to_file(glm::normalize(glm::dvec3(-0.5, -1, -0.3))));
   state.edits.added.push_back(light);
   state.selected_light = state.light_count() - 1;
   state.light_edit(state.selected_light) = {};

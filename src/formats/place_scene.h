@@ -1,0 +1,18 @@
+// Places a scene that an importer has read in its file's own coordinates.
+#pragma once
+
+#include <tenebra/scene.h>
+#include "formats/placement.h"
+
+namespace tenebra::formats {
+
+/// Subtracts the offset of `placement` from the scene's roots, keys of their animations included, which is
+/// exact where they carry it; what the first clip shows at its start decides an automatic one. Another up
+/// axis or unit than Y and metres becomes a node above the roots.
+void place_scene(const Placement& placement, Scene& scene);
+
+/// Adds a warning where the contact tolerance of the scene's coordinates, as the first clip begins, is more
+/// than a millimetre or a thousandth of the longest side.
+void warn_of_tolerance(Scene& scene);
+
+}  // namespace tenebra::formats

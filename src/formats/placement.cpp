@@ -1,0 +1,27 @@
+#include "formats/placement.h"
+
+#include <algorithm>
+
+#include "math/whole_origin.h"
+
+namespace tenebra::formats {
+
+bool states_coordinates(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return extension == ".gltf" || extension == ".glb";
+}
+
+FileFrame choose_frame(const Placement& placement, const FormatCoordinates& format,
+                       std::span<const glm::dvec3> points, std::span<const glm::dvec3> carriers) {
+  FileFrame frame;
+  frame.up = placement.up.value_or(format.up);
+  frame.metres_per_unit = placement.metres_per_unit.value_or(format.metres_per_unit);
+  if (placement.offset == OffsetChoice::given) frame.origin = placement.given_offset;
+  if (placement.offset == OffsetChoice::automatic)
+    frame.origin = math::whole_origin(points, carriers, frame.metres_per_unit);
+  return frame;
+}
+
+}  // namespace tenebra::formats
