@@ -246,8 +246,8 @@ class Tracer:
 
 
 def _count(threads: int) -> int:
-    if threads < 0:
-        raise ValueError(f"threads: found {threads}, expected a number, or 0 for all cores")
+    if not 0 <= threads <= 1024:
+        raise ValueError(f"threads: found {threads}, expected 1 to 1024, or 0 for all cores")
     return threads
 
 

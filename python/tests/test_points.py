@@ -139,6 +139,7 @@ def test_arrays_are_not_copied_twice():
     (lambda: tenebra.hard_mask((POSITIONS, INDICES), POINTS, (0, np.nan, 0)), ValueError, "expected finite numbers"),
     (lambda: tenebra.hard_mask((POSITIONS, INDICES), POINTS, SQUARE), TypeError, "soft_visibility"),
     (lambda: tenebra.hard_mask((POSITIONS, INDICES), POINTS, LIGHT, threads=-1), ValueError, "threads: found -1"),
+    (lambda: tenebra.hard_mask((POSITIONS, INDICES), POINTS, LIGHT, threads=1 << 24), ValueError, "expected 1 to 1024"),
     (lambda: tenebra.soft_visibility((POSITIONS, INDICES), POINTS, LIGHT), TypeError, "expected an AreaLight"),
     (lambda: tenebra.soft_visibility((POSITIONS, INDICES), POINTS, SQUARE, memory_mb=0), ValueError, "found 0, expected 1"),
     (lambda: tenebra.AreaLight([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]), ValueError, "light"),

@@ -103,8 +103,10 @@ Expected<Question> question(tenebra_tracer& tracer, const tenebra_geometry* geom
     if (!chosen) return tl::unexpected(chosen.error());
     known = *chosen;
   }
-  if (known.threads < 0)
-    return base::fail("options: found {} threads, expected a number or 0 for all cores", known.threads);
+  constexpr int most_threads = 1024;
+  if (known.threads < 0 || known.threads > most_threads)
+    return base::fail("options: found {} threads, expected 1 to {}, or 0 for all cores", known.threads,
+                      most_threads);
   Question asked{&*geometry->geometry,
                  {.positions = span_of<glm::dvec3>(points->positions, points->count),
                   .triangles = span_of<std::uint32_t>(points->triangles, points->count),

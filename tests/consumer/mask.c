@@ -32,6 +32,11 @@ static void ask(tenebra_tracer* tracer, const tenebra_geometry* geometry) {
   uint8_t mask[2] = {7, 7};
   expect(tenebra_hard_mask(tracer, geometry, &points, &light, NULL, mask) == TENEBRA_OK, "a mask");
   expect(mask[0] == 255 && mask[1] == 0, "the left point lit and the right one in shadow");
+  tenebra_options too_many = TENEBRA_OPTIONS_INIT;
+  too_many.threads = 1 << 24;
+  expect(tenebra_hard_mask(tracer, geometry, &points, &light, &too_many, mask) == TENEBRA_FAILED &&
+             strstr(tenebra_tracer_error(tracer), "expected 1 to 1024") != NULL,
+         "a sentence on the number of threads");
 
   const float square[] = {-1, 4, -1, 1, 4, -1, 1, 4, 1, -1, 4, 1};
   tenebra_area_light area = TENEBRA_AREA_LIGHT_INIT;
