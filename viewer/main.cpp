@@ -93,7 +93,7 @@ void warn_of_old_names(const CLI::App& program, const std::vector<std::string>& 
 int parse_and_run(CLI::App& program, Run& run, const std::vector<std::string>& arguments) {
   const auto failure_code = [&] { return program.got_subcommand("compare") ? comparison_failure : failure; };
   try {
-    program.parse({arguments.rbegin(), arguments.rend()});  // CLI11 takes the last one first
+    program.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // the last one first
   } catch (const CLI::CallForHelp&) {
     // The help of the command that was asked about; CLI11 descends to it.
     tenebra::viewer::print_out("{}", program.help());
