@@ -22,7 +22,11 @@ Expected<Scene> read_scene(const std::filesystem::path& path, const ImportOption
   if (!options.scene.empty() && !gltf)
     return base::fail("{}: found no scenes to choose from, expected a glTF file for scene '{}'.",
                       path.string(), options.scene);
-  if (extension == ".aff" || extension == ".nff") return placed(import_aff(path, options), options.placement);
+  if (extension == ".aff" || extension == ".nff") {
+    Placement placement = options.placement;  // BART's scenes keep their floats: pictures of them are compared
+    if (placement.offset == OffsetChoice::automatic) placement.offset = OffsetChoice::none;
+    return placed(import_aff(path, options), placement);
+  }
   if (gltf) return placed(import_gltf(path, options), options.placement);
   if (extension == ".obj") return import_obj(path, options);
   return base::fail("{}: found the extension '{}', expected .aff, .nff, .gltf, .glb or .obj.", path.string(),

@@ -121,7 +121,7 @@ void warn_of_tolerance(Scene& scene) {
   const int side = bounds.longest_side();
   if (!(tolerance_m > std::min(1e-3, 1e-3 * (bounds.high[side] - bounds.low[side])))) return;
   scene.warnings.push_back(fmt::format(
-      "Coordinates reach {:.6g} m: a surface casts no shadow on points closer than {:.3g} m to its plane, "
+      "Coordinates reach {:.0f} m: a surface casts no shadow on points closer than {:.3g} m to its plane, "
       "the tolerance of floats of that size.",
       bounds.largest_coordinate(), tolerance_m));
 }

@@ -57,8 +57,8 @@ Setting<SceneSettings> offset() {
       {.name = "offset",
        .value = "auto|none|X,Y,Z",
        .help = "What is subtracted from the file's coordinates, in double, before they become floats; "
-               "auto: whole numbers near the middle of a scene that is far from the origin for its size, "
-               "else nothing",
+               "auto: whole numbers near the middle of a scene that is far from the origin for its size "
+               "(but of AFF), else nothing",
        .group = Group::scene},
       read, texts);
 }

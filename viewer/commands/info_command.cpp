@@ -210,7 +210,7 @@ Json describe(const Scene& scene, const InfoOptions& options) {
 
 /// To six digits or, where these do not reach, to a thousandth; without a negative zero.
 std::string number_text(double number) {
-  if (std::abs(number) < 1e5 || std::abs(number) >= 1e12) return fmt::format("{:.6g}", number + 0.0);
+  if (std::abs(number) < 1e4 || std::abs(number) >= 1e12) return fmt::format("{:.6g}", number + 0.0);
   return fmt::format("{}", std::round(number * 1000) / 1000);
 }
 
