@@ -1,5 +1,6 @@
 // A scene as imported: plain tables and indices, no OpenGL, nothing evaluated yet.
-// Right-handed, Y up, metres where the file means metres; colours as Scene::transfer says.
+// Right-handed, Y up, metres where the file means metres, from Scene::frame's origin; colours as
+// Scene::transfer says.
 #pragma once
 
 #include <array>
@@ -108,6 +109,31 @@ struct Node {
   std::vector<float> weights;               ///< morph weights of this instance; empty: the mesh's
 };
 
+/// Which axis of a file points up.
+enum class UpAxis { y, z };
+
+/// From the coordinates of the scene's file to those of the scene, in double: (file - origin) *
+/// metres_per_unit, and Z up becomes Y up by (x, z, -y). As it stands here, both are the same. Positions that
+/// a user gives or gets are the file's; lengths are metres.
+struct FileFrame {
+  glm::dvec3 origin{0.0};      ///< in the file's coordinates; whole numbers where the program chose it
+  UpAxis up = UpAxis::y;       ///< of the file
+  double metres_per_unit = 1;  ///< of the file; above 0
+
+  glm::dvec3 to_scene(const glm::dvec3& file) const {
+    return direction_to_scene((file - origin) * metres_per_unit);
+  }
+  glm::dvec3 to_file(const glm::dvec3& scene) const {
+    return origin + direction_to_file(scene) / metres_per_unit;
+  }
+  glm::dvec3 direction_to_scene(const glm::dvec3& d) const {
+    return up == UpAxis::y ? d : glm::dvec3(d.x, d.z, -d.y);
+  }
+  glm::dvec3 direction_to_file(const glm::dvec3& d) const {
+    return up == UpAxis::y ? d : glm::dvec3(d.x, -d.z, d.y);
+  }
+};
+
 /// Something that a scene file holds and nothing uses: "normalTexture", "KHR_materials_clearcoat".
 struct UnusedContent {
   std::string name;       ///< as the file calls it
@@ -117,6 +143,7 @@ struct UnusedContent {
 /// Everything that was imported.
 struct Scene {
   std::string name;                     ///< file name without folder
+  FileFrame frame;                      ///< where the file has what stands at a place of the scene
   std::vector<Node> nodes;              ///< parents before children
   std::vector<Mesh> meshes;             ///< indexed by Node::mesh
   std::vector<Skin> skins;              ///< indexed by Node::skin

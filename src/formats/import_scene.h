@@ -7,12 +7,14 @@
 
 #include <tenebra/expected.h>
 #include <tenebra/scene.h>
+#include "formats/placement.h"
 
 namespace tenebra::formats {
 
 struct ImportOptions {
   int cone_sides = 64;  ///< AFF `c`: sides of a cone or cylinder (the 2011 paper's count needs 8)
   std::string scene;  ///< glTF: which of the file's scenes, by name or number; empty: the one it shows first
+  Placement placement;
   /// Where pictures are looked for that are not beside the scene.
   std::vector<std::filesystem::path> texture_paths;
   /// Gets each file that the scene was read from, in an order that is the same at each import; null: not
