@@ -108,7 +108,7 @@ private:
     bool is_new = false;
     const std::uint32_t id = known_.find(corner, is_new);
     if (!is_new) return id;
-    mesh.positions.emplace_back(file_.positions[corner.position]);
+    mesh.positions.emplace_back(looks_.frame.to_scene(file_.positions[corner.position]));
     mesh.normals.push_back(normal(corner.normal));
     if (looks_.textured) mesh.texture_coordinates[0].push_back(coordinates(corner.coordinates));
     if (!file_.colors.empty()) mesh.colors.push_back(color(corner.position));
@@ -117,7 +117,8 @@ private:
 
   glm::vec3 normal(std::int32_t i) {
     if (i < 0) return glm::vec3(0);
-    const glm::vec3 n = unit_or_zero(file_.normals[static_cast<std::size_t>(i)]);
+    const glm::vec3 n =
+        unit_or_zero(looks_.frame.direction_to_scene(file_.normals[static_cast<std::size_t>(i)]));
     has_normal_ |= n != glm::vec3(0);
     return n;
   }

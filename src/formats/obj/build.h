@@ -8,6 +8,7 @@ namespace tenebra::formats {
 
 /// How an ObjFile becomes meshes.
 struct ObjLooks {
+  FileFrame frame;  ///< places the positions
   std::vector<std::uint32_t>
       materials;           ///< for each of ObjFile::material_names, an index into Scene::materials
   std::uint32_t grey = 0;  ///< the material of faces without one

@@ -19,11 +19,11 @@ namespace fs = std::filesystem;
 
 /// `name` beside the scene; of a name with folders that are not there, or are of another machine, the last
 /// part. Nothing where there is no such file.
-std::optional<fs::path> find_library(const fs::path& folder, std::string_view name) {
+std::optional<fs::path> find_library(const fs::path& folder, const fs::path& root, std::string_view name) {
   const std::string_view last = name.substr(name.find_last_of("/\\") + 1);
   for (const std::string_view part : {name, last}) {
     try {
-      const fs::path file = confine(folder, part, "mtllib", false);
+      const fs::path file = confine(folder, part, "mtllib", false, root);
       std::error_code error;
       if (fs::is_regular_file(file, error)) return file;
     } catch (const ImportFailure&) {
@@ -34,16 +34,17 @@ std::optional<fs::path> find_library(const fs::path& folder, std::string_view na
 }
 
 /// The files that `mtllib WRITTEN` names: the whole rest of the line if there is such a file, else each word.
-std::vector<fs::path> library_files(const fs::path& scene, std::string_view written, Scene& read) {
+std::vector<fs::path> library_files(const fs::path& scene, const fs::path& root, std::string_view written,
+                                    Scene& read) {
   const fs::path folder = scene.parent_path();
   for (const std::string_view whole : {written, without_comment(written)})
-    if (const auto file = find_library(folder, whole)) return {*file};
+    if (const auto file = find_library(folder, root, whole)) return {*file};
   std::vector<fs::path> files;
   constexpr int most_words = 64;
   for (int i = 0; i < most_words; ++i) {
     const std::string_view word = take_word(written);
     if (word.empty()) break;
-    if (const auto file = find_library(folder, word))
+    if (const auto file = find_library(folder, root, word))
       files.push_back(*file);
     else
       read.warnings.push_back(fmt::format(
@@ -65,7 +66,7 @@ std::vector<MtlMaterial> read_libraries(const fs::path& path, const ObjFile& fil
   std::vector<MtlMaterial> materials;
   std::vector<fs::path> read;
   for (const std::string& written : file.libraries)
-    for (const fs::path& library : library_files(path, written, scene)) {
+    for (const fs::path& library : library_files(path, options.root, written, scene)) {
       if (std::find(read.begin(), read.end(), library) != read.end()) continue;
       read.push_back(library);
       const std::string name = library.filename().string();
@@ -119,9 +120,9 @@ Scene read_obj(const fs::path& path, const ImportOptions& options) {
   ObjLooks looks;
   looks.grey = static_cast<std::uint32_t>(materials.size());
   looks.materials = materials_of_names(file, materials, looks.grey, scene);
+  looks.frame = scene.frame = choose_frame(options.placement, {}, file.positions);
   looks.textured = !scene.images.empty();
   if (add_meshes(file, looks, scene)) scene.materials.emplace_back();
-  if (scene.meshes.empty()) scene.warnings.push_back("The file has no faces.");
   warn_of_odd_positions(file, scene);
   return scene;
 }

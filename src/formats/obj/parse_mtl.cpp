@@ -19,14 +19,17 @@ public:
   MtlParser(const std::string& file, std::vector<std::string>& warnings) : file_(file), warnings_(warnings) {}
 
   std::vector<MtlMaterial> parse(std::string_view text) {
-    for (TextLines lines(text); lines.next(at_);) read_statement(lower(at_.word));
+    for (TextLines lines(text); lines.next(at_);) {
+      written_ = at_.rest;
+      read_statement(lower(at_.word));
+    }
     return std::move(materials_);
   }
 
 private:
   void read_statement(const std::string& word) {
     if (word == "newmtl") return begin();
-    if (materials_.empty()) return warn("before any newmtl");
+    if (materials_.empty()) return warn(", expected newmtl first");
     MtlMaterial& material = materials_.back();
     if (word == "kd") return read_color(material.diffuse);
     if (word == "ks") return read_color(material.specular);
@@ -57,8 +60,8 @@ private:
   void warn(std::string_view what) {
     constexpr int most = 20;  // a file of another kind has thousands
     if (++said_ <= most)
-      warnings_.push_back(fmt::format("{}, line {}: found '{} {}' {}.", file_, at_.line, shown_word(at_.word),
-                                      shown_word(at_.rest), what));
+      warnings_.push_back(fmt::format("{}, line {}: found '{} {}'{}.", file_, at_.line, shown_word(at_.word),
+                                      shown_word(written_), what));
   }
 
   /// A number of the statement; `otherwise` where there is none.
@@ -70,11 +73,11 @@ private:
         break;
       case NumberFault::decimal_comma:
         // Once for a statement, with the rest of it.
-        if (!comma_) warn("and more numbers with a decimal comma, read as points");
+        if (!comma_) warn(", whose decimal commas are read as points");
         comma_ = true;
         break;
       case NumberFault::not_a_number:
-        warn("which is not read");
+        warn(", which is not read");
         at_.rest = {};
         return otherwise;
     }
@@ -144,6 +147,7 @@ private:
   std::vector<std::string>& warnings_;
   std::vector<MtlMaterial> materials_;
   Statement at_;
+  std::string_view written_;  ///< what the statement says, all of it
   int said_ = 0;
   bool comma_ = false;  ///< the statement has been warned of
 };
