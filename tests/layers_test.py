@@ -61,7 +61,6 @@ CONTAINED = [
     (r"\bstd::(thread|jthread|mutex|atomic|condition_variable|barrier)\b|\btbb::", "a thread", {"parallel", "gl/load_functions.cpp"}),  # gl: glad's one table for all threads
     (r"\bgl[A-Z]\w*\(", "an OpenGL call", {"gl", "raster", "shade_gl"}),
     (r"tiny_gltf|tinygltf::", "tinygltf", {"formats/gltf"}),
-    (r"tinyobj::", "tinyobjloader", {"formats/obj"}),
     (r"\bmeshopt_|meshoptimizer\.h", "meshoptimizer", {"formats/gltf/meshopt.cpp"}),
     (r"\bdraco::|<draco/", "Draco", {"formats/gltf/draco_decoder.cpp"}),
     (r"\bstbi_|stb/stb_image", "stb_image", {"io/image.cpp"}),

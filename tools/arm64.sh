@@ -14,7 +14,7 @@ suites=("$@")
 
 native=(ca-certificates g++-aarch64-linux-gnu cmake ninja-build pkg-config python3 python3-glad qemu-user
   libglm-dev libexpected-dev nlohmann-json3-dev libcli11-dev)
-foreign=(libegl-dev libopengl-dev libfmt-dev libtinygltf-dev libtinyobjloader-dev libstb-dev libtbb-dev libhwy-dev
+foreign=(libegl-dev libopengl-dev libfmt-dev libtinygltf-dev libstb-dev libtbb-dev libhwy-dev
   libzstd-dev libdeflate-dev libxxhash-dev libgmp-dev libopenexr-dev libgtest-dev libembree-dev libstdc++6)
 
 missing() {

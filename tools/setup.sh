@@ -10,7 +10,7 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build pkg-config python3 python3-glad
   libegl-dev libopengl-dev libegl1 libegl-mesa0 libgl1-mesa-dri
-  libglm-dev libfmt-dev libexpected-dev libtinygltf-dev libtinyobjloader-dev
+  libglm-dev libfmt-dev libexpected-dev libtinygltf-dev
   nlohmann-json3-dev libcli11-dev libstb-dev libtbb-dev libhwy-dev
   libzstd-dev libdeflate-dev libxxhash-dev libgmp-dev libopenexr-dev
   libglfw3-dev libimgui-dev

@@ -1,6 +1,9 @@
 #include "formats/import_scene.h"
 
 #include <algorithm>
+#include <array>
+#include <fstream>
+#include <string_view>
 
 #include "base/fail.h"
 #include "formats/place_scene.h"
@@ -8,36 +11,110 @@
 namespace tenebra::formats {
 namespace {
 
+namespace fs = std::filesystem;
+
 Expected<Scene> placed(Expected<Scene> scene, const Placement& placement) {
   if (scene) place_scene(placement, *scene);
   return scene;
 }
 
-/// By the file's extension.
-Expected<Scene> read_scene(const std::filesystem::path& path, const ImportOptions& options) {
+std::string extension_of(const fs::path& path) {
   std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return extension;
+}
+
+bool is_scene_extension(const std::string& extension) {
+  static constexpr std::string_view known[] = {".aff", ".nff", ".gltf", ".glb", ".obj"};
+  return std::find(std::begin(known), std::end(known), extension) != std::end(known);
+}
+
+/// The first scene file of `folder` by name, or empty.
+fs::path scene_in(const fs::path& folder) {
+  fs::path first;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (is_scene_extension(extension_of(entry.path())) && (first.empty() || entry.path() < first))
+      first = entry.path();
+  return first;
+}
+
+/// What users open in place of a scene, by its first bytes, and what to do; empty: none of these.
+std::string other_content(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) {
+    const fs::path scene = scene_in(path);
+    return "found a folder, expected a scene file: open " +
+           (scene.empty() ? "a file in it" : scene.filename().string() + " in it");
+  }
+  std::array<char, 32> first{};
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return {};
+  stream.read(first.data(), first.size());
+  const std::string_view bytes(first.data(), static_cast<std::size_t>(stream.gcount()));
+  if (bytes.empty()) return "found an empty file, expected a scene: copy it again";
+  for (const std::string_view archive : {"PK\x03\x04", "Rar!", "7z\xBC\xAF", "\x1F\x8B"})
+    if (bytes.starts_with(archive))
+      return "found an archive, expected a scene: unpack it and open the scene in it";
+  if (bytes.starts_with("version https://git-lfs"))
+    return "found a note of Git LFS in place of the file, expected a scene: fetch it by 'git lfs pull'";
+  for (const std::string_view page : {"<!DOCTYPE", "<!doctype", "<html", "<HTML"})
+    if (bytes.starts_with(page))
+      return "found a web page, expected a scene: download the file itself, not the page that shows it";
+  return {};
+}
+
+/// Says where nothing of the scene can be seen. What a clip shows at a time is not looked at.
+void warn_of_nothing(Scene& scene) {
+  std::size_t triangles = 0, solid = 0, shown = 0;
+  std::vector<bool> visible;
+  const auto is_solid = [&](std::uint32_t material) { return scene.materials[material].alpha > 0; };
+  for (const Node& node : scene.nodes) {
+    visible.push_back(node.visible && (node.parent < 0 || visible[static_cast<std::size_t>(node.parent)]));
+    if (node.mesh < 0) continue;
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
+    triangles += mesh.triangles.size();
+    if (visible.back()) shown += mesh.triangles.size();
+    if (solid == 0) solid += std::any_of(mesh.materials.begin(), mesh.materials.end(), is_solid);
+  }
+  if (triangles == 0)
+    scene.warnings.push_back("The scene has no triangles: there is nothing to see.");
+  else if (solid == 0)
+    scene.warnings.push_back("All materials have alpha 0: there is nothing to see.");
+  else if (shown == 0)
+    scene.warnings.push_back("All nodes with triangles are hidden: there is nothing to see.");
+}
+
+/// By the file's extension.
+Expected<Scene> read_scene(const fs::path& path, const ImportOptions& options) {
+  const std::string extension = extension_of(path);
   const bool gltf = extension == ".gltf" || extension == ".glb";
+  if (const std::string other = other_content(path); !other.empty())
+    return base::fail("{}: {}.", path.string(), other);
+  if (!is_scene_extension(extension))
+    return base::fail(
+        "{}: found the extension '{}', expected .aff, .nff, .gltf, .glb or .obj: export it as glTF (in "
+        "Blender: File > "
+        "Export > glTF 2.0).",
+        path.string(), extension);
   if (!options.scene.empty() && !gltf)
     return base::fail("{}: found no scenes to choose from, expected a glTF file for scene '{}'.",
                       path.string(), options.scene);
-  if (extension == ".aff" || extension == ".nff") {
-    Placement placement = options.placement;  // BART's scenes keep their floats: pictures of them are compared
-    if (placement.offset == OffsetChoice::automatic) placement.offset = OffsetChoice::none;
-    return placed(import_aff(path, options), placement);
-  }
   if (gltf) return placed(import_gltf(path, options), options.placement);
   if (extension == ".obj") return import_obj(path, options);
-  return base::fail("{}: found the extension '{}', expected .aff, .nff, .gltf, .glb or .obj.", path.string(),
-                    extension);
+  Placement placement = options.placement;  // BART's scenes keep their floats: pictures of them are compared
+  if (placement.offset == OffsetChoice::automatic) placement.offset = OffsetChoice::none;
+  return placed(import_aff(path, options), placement);
 }
 
 }  // namespace
 
-Expected<Scene> import_scene(const std::filesystem::path& path, const ImportOptions& options) {
+Expected<Scene> import_scene(const fs::path& path, const ImportOptions& options) {
   auto scene = read_scene(path, options);
-  if (scene) warn_of_tolerance(*scene);
+  if (!scene) return scene;
+  warn_of_nothing(*scene);
+  warn_of_tolerance(*scene);
   return scene;
 }
 

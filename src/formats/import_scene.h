@@ -16,6 +16,8 @@ struct ImportOptions {
   std::string scene;  ///< glTF: which of the file's scenes, by name or number; empty: the one it shows first
   Placement placement;          ///< followed by import_scene alone
   bool keep_unrounded = false;  ///< fill Mesh::unrounded where positions are rounded
+  /// Files that the scene names may lie anywhere in this folder, by `..` too; empty: in the scene's folder.
+  std::filesystem::path root = {};
   /// Where pictures are looked for that are not beside the scene.
   std::vector<std::filesystem::path> texture_paths;
   /// Gets each file that the scene was read from, in an order that is the same at each import; null: not
@@ -24,7 +26,8 @@ struct ImportOptions {
 };
 
 /// Imports by the file's extension (.aff .nff .gltf .glb .obj). Never crashes, hangs or leaves the scene's
-/// folder; what it cannot read whole it refuses in one sentence (file, line or JSON path, found, expected).
+/// folder (ImportOptions::root); what leaves the geometry in doubt it refuses in one sentence (file, line or
+/// JSON path, found, expected), and warns of other faults.
 /// Pictures are read from the scene's folder, its folders textures and TextureFiles, and the texture paths;
 /// one that is missing, broken or too large is a warning. Needs at most 256 MiB + 20 times the files' size
 /// (compressed geometry counts as what it decodes to, up to 16 times its size), and four bytes per pixel of

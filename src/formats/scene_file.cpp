@@ -56,24 +56,31 @@ std::string read_scene_file(const fs::path& path, std::vector<fs::path>* files_r
   return bytes;
 }
 
-fs::path confine(const fs::path& folder, std::string_view uri, std::string_view place, bool percent_encoded) {
-  const std::string text = percent_encoded ? undo_percent(uri, place) : std::string(uri);
+fs::path confine(const fs::path& folder, std::string_view uri, std::string_view place, bool percent_encoded,
+                 const fs::path& root) {
+  std::string text = percent_encoded ? undo_percent(uri, place) : std::string(uri);
+  std::replace(text.begin(), text.end(), '\\', '/');  // written on Windows
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20; };
   const bool odd = text.empty() || std::any_of(text.begin(), text.end(), is_control) ||
-                   text.find(':') != std::string::npos || text.find('\\') != std::string::npos;
+                   text.find(':') != std::string::npos;
   const fs::path relative(text);
   const bool climbs = std::find(relative.begin(), relative.end(), "..") != relative.end();
-  if (odd || relative.is_absolute() || climbs)
+  if (odd || relative.is_absolute() || (climbs && root.empty()))
     refuse("{}: found '{}', expected a relative path inside the scene's folder", place, uri);
   std::error_code error;
-  const fs::path root = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, error);
-  const fs::path target = error ? fs::path() : fs::weakly_canonical(root / relative, error);
+  const auto resolve = [&](const fs::path& path) {
+    return error ? fs::path() : fs::weakly_canonical(path, error);
+  };
+  const fs::path here = resolve(folder.empty() ? fs::path(".") : folder),
+                 around = root.empty() ? here : resolve(root);
+  const fs::path target = resolve(here / relative);
   if (error == std::errc::not_enough_memory) throw std::bad_alloc();
   if (error)
     refuse("{}: cannot resolve '{}' ({}), expected a file in the folder", place, uri, error.message());
-  const auto inside = std::mismatch(root.begin(), root.end(), target.begin(), target.end());
-  if (inside.first != root.end())
-    refuse("{}: found '{}' leading out of the scene's folder, expected a file inside it", place, uri);
+  const auto inside = std::mismatch(around.begin(), around.end(), target.begin(), target.end());
+  if (inside.first != around.end())
+    refuse("{}: found '{}' leading out of {}, expected a file inside it", place, uri,
+           root.empty() ? "the scene's folder" : "the folder that holds its files");
   return target;
 }
 

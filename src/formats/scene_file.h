@@ -19,10 +19,11 @@ std::string read_scene_file(const std::filesystem::path& path,
 /// `uri` with its %XX undone. Throws ImportFailure naming `place`.
 std::string undo_percent(std::string_view uri, std::string_view place);
 
-/// `uri` of a scene in `folder` as a path inside that folder, percent-encoding undone, links resolved. Throws
-/// ImportFailure naming `place` for schemes, absolute paths, `..`, control characters and links that lead
-/// out.
+/// `uri` of a scene in `folder` as a path inside `root`, or where that is empty inside the folder, with
+/// percent-encoding undone, backslashes as slashes, links resolved. Throws ImportFailure naming `place` for
+/// schemes, absolute paths, control characters, links that lead out, and `..` where there is no `root`.
 std::filesystem::path confine(const std::filesystem::path& folder, std::string_view uri,
-                              std::string_view place, bool percent_encoded);
+                              std::string_view place, bool percent_encoded,
+                              const std::filesystem::path& root = {});
 
 }  // namespace tenebra::formats

@@ -44,7 +44,8 @@ Expected<ClipTransform> clip_transform(const ViewRays& view, const math::Box<flo
   const double volume = glm::dot(d0, axis);
   const double depth = std::abs(volume) / glm::length(axis);  // of the plane t = 1, along the view's axis
   const double near_t = view.near_m / depth;
-  if (!std::isfinite(near_t) || !std::isfinite(1.0 / volume) || !(near_t > 0) ||
+  if (!std::isfinite(near_t) || !std::isfinite(1.0 / volume) ||
+      !(view.orthographic ? near_t >= 0 : near_t > 0) ||
       !std::isfinite(glm::dot(glm::dvec3(view.eye), glm::dvec3(view.eye)))) {
     return base::fail(
         "camera: found rays that span no picture, expected finite width, height, depth and near plane");

@@ -76,17 +76,19 @@ const char* bytes_in_view(const Asset& asset, int view_index, uint64_t offset, u
   const uint64_t room = view.byteLength;
   if (offset > room || element > room - offset || count - 1 > (room - offset - element) / stride)
     refuse(
-        "{}: found {} elements of {} bytes from offset {}, expected them within the {} bytes of "
-        "bufferViews[{}]",
-        place, count, element, offset, room, view_index);
+        "{}: found {} elements of {} bytes from offset {} with a byteStride of {}, expected them within the "
+        "{} "
+        "bytes of bufferViews[{}].byteLength",
+        place, count, element, offset, stride, room, view_index);
   return asset.buffers[static_cast<std::size_t>(view.buffer)].data() + view.byteOffset + offset;
 }
 
-void check_alignment(const Asset& asset, int view, uint64_t offset, uint64_t component,
-                     const std::string& place) {
+/// Says where elements lie at odd addresses; they are read byte by byte.
+void note_alignment(Asset& asset, int view, uint64_t offset, uint64_t component, const std::string& place) {
   const uint64_t total = asset.model.bufferViews[static_cast<std::size_t>(view)].byteOffset + offset;
   if (offset % component != 0 || total % component != 0)
-    refuse("{}: found total offset {}, expected a multiple of {}", place, total, component);
+    asset.scene.warnings.push_back(
+        fmt::format("{}: found total offset {}, expected a multiple of {}.", place, total, component));
 }
 
 template <class T>
@@ -139,10 +141,6 @@ void apply_sparse(const Asset& asset, const Accessor& accessor, const Layout& la
                                       index_size, index_size, place + ".sparse.indices");
   const char* elements = bytes_in_view(asset, sparse.values.bufferView, sparse.values.byteOffset, count,
                                        layout.element, layout.element, place + ".sparse.values");
-  check_alignment(asset, sparse.indices.bufferView, sparse.indices.byteOffset, index_size,
-                  place + ".sparse.indices");
-  check_alignment(asset, sparse.values.bufferView, sparse.values.byteOffset, layout.component,
-                  place + ".sparse.values");
   double last = -1;
   for (uint64_t i = 0; i < count; ++i) {
     const double index = load_component(indices + i * index_size, index_type, false);
@@ -171,7 +169,6 @@ std::vector<double> read_unbudgeted(const Asset& asset, int index) {
              stride);
     bytes = bytes_in_view(asset, accessor.bufferView, accessor.byteOffset, accessor.count, layout.element,
                           stride, place);
-    check_alignment(asset, accessor.bufferView, accessor.byteOffset, layout.component, place);
   }
   std::vector<double> values(accessor.count * components);
   for (std::size_t i = 0; bytes && i < accessor.count; ++i)
@@ -245,19 +242,39 @@ bool check_bounds(Asset& asset, std::size_t index, const std::vector<double>& va
   return outside == 0 && not_finite == 0 && !bounds_are_exact(accessor, values);
 }
 
-void check_view(const Asset& asset, std::size_t index) {
+/// All alignments of accessor `index`, whose values have been read.
+void note_alignments(Asset& asset, std::size_t index) {
+  const Accessor& accessor = asset.model.accessors[index];
+  const std::string place = fmt::format("accessors[{}]", index);
+  const Layout layout = layout_of(accessor, place);
+  if (accessor.bufferView >= 0)
+    note_alignment(asset, accessor.bufferView, accessor.byteOffset, layout.component, place);
+  if (!accessor.sparse.isSparse) return;
+  const auto& indices = accessor.sparse.indices;
+  const auto& values = accessor.sparse.values;
+  note_alignment(asset, indices.bufferView, indices.byteOffset, component_size(indices.componentType, place),
+                 place + ".sparse.indices");
+  note_alignment(asset, values.bufferView, values.byteOffset, layout.component, place + ".sparse.values");
+}
+
+void check_view(Asset& asset, std::size_t index) {
   const auto& view = asset.model.bufferViews[index];
   const uint64_t room = asset.buffers[static_cast<std::size_t>(view.buffer)].size();
-  if (view.byteLength == 0) refuse("bufferViews[{}].byteLength: found 0, expected 1 or more", index);
+  auto& warnings = asset.scene.warnings;
+  if (view.byteLength == 0)
+    warnings.push_back(fmt::format("bufferViews[{}].byteLength: found 0, expected 1 or more.", index));
   if (view.byteOffset > room || view.byteLength > room - view.byteOffset)
-    refuse("bufferViews[{}]: found {} bytes from offset {}, expected them within the {} bytes of buffers[{}]",
-           index, view.byteLength, view.byteOffset, room, view.buffer);
+    refuse(
+        "bufferViews[{}]: found {} bytes from offset {}, expected them within the {} bytes of "
+        "buffers[{}].byteLength and of its file, which may be cut off",
+        index, view.byteLength, view.byteOffset, room, view.buffer);
   if (view.byteStride != 0 && (view.byteStride < 4 || view.byteStride > 252 || view.byteStride % 4 != 0))
-    refuse("bufferViews[{}].byteStride: found {}, expected a multiple of 4 from 4 to 252", index,
-           view.byteStride);
+    warnings.push_back(
+        fmt::format("bufferViews[{}].byteStride: found {}, expected a multiple of 4 from 4 to 252.", index,
+                    view.byteStride));
   if (view.byteStride != 0 && view.target == TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER)
-    refuse("bufferViews[{}].byteStride: found {} on a view of indices, expected none", index,
-           view.byteStride);
+    warnings.push_back(fmt::format(
+        "bufferViews[{}].byteStride: found {} on a view of indices, expected none.", index, view.byteStride));
 }
 
 }  // namespace
@@ -272,7 +289,8 @@ void check_accessors(Asset& asset) {
   std::uint64_t most_elements = 20'000'000;
   for (const std::string& buffer : asset.buffers) most_elements += buffer.size();
   Budget work(most_elements);
-  std::size_t loose = 0, first_loose = 0;
+  std::size_t loose = 0, first_loose = 0, unaligned = 0;
+  constexpr std::size_t most_unaligned = 10;  // that are named
   for (std::size_t i = 0; i < asset.model.accessors.size(); ++i) {
     const Accessor& accessor = asset.model.accessors[i];
     // A count of 0 marks an accessor of unknown type: refused when used.
@@ -285,6 +303,9 @@ void check_accessors(Asset& asset) {
     Budget passing = asset.budget;  // the values live only for the check
     passing.take(accessor.count, 8 * static_cast<std::uint64_t>(component_count(accessor)),
                  fmt::format("accessors[{}].count", i));
+    const std::size_t said = asset.scene.warnings.size();
+    if (unaligned < most_unaligned) note_alignments(asset, i);
+    unaligned += asset.scene.warnings.size() > said;
     if (check_bounds(asset, i, read_unbudgeted(asset, static_cast<int>(i))) && loose++ == 0) first_loose = i;
   }
   if (loose > 0)
@@ -308,7 +329,8 @@ std::vector<std::uint32_t> read_indices(Asset& asset, int index, const std::stri
     refuse("{}: found accessors[{}] of another format, expected unsigned SCALAR integers", what, index);
   if (accessor.bufferView >= 0 &&
       asset.model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride != 0)
-    refuse("{}: found a bufferView with byteStride, expected tightly packed indices", what);
+    asset.scene.warnings.push_back(
+        fmt::format("{}: found a bufferView with byteStride, expected tightly packed indices.", what));
   const std::vector<double> numbers = read_numbers(asset, index);
   return {numbers.begin(), numbers.end()};
 }

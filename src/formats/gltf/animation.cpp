@@ -43,7 +43,7 @@ struct ClipBuilder {
   Clip clip;
   std::map<std::tuple<int, int, double>, int> track_of;  // sampler, components and factor -> track
   std::set<std::tuple<PointerTable, std::size_t, ChannelPath>> stated;
-  std::set<std::pair<int, ChannelPath>> driven;  // nodes of the scene
+  std::map<std::pair<int, ChannelPath>, std::size_t> driven;  // nodes of the scene -> channel
   std::size_t aimless = 0, not_unit = 0;
   std::vector<std::string> unread;  // what is driven, but not read
 
@@ -176,14 +176,15 @@ struct ClipBuilder {
   }
 
   void check_node(const PointerTarget& target, const std::string& where) {
-    const auto& node = asset.model.nodes[target.index];
     const bool weights = target.path == ChannelPath::weights;
-    if (weights && target_count(static_cast<int>(target.index)) == 0)
-      refuse("{}.target: found weights of nodes[{}] without morph targets, expected some", where,
-             target.index);
-    if (!weights && target.path != ChannelPath::visibility && !node.matrix.empty())
-      refuse("{}.target: found nodes[{}] that has a matrix, expected translation, rotation and scale", where,
-             target.index);
+    const int shown = scene_node[target.index];
+    if (weights || target.path == ChannelPath::visibility || shown < 0) return;
+    if (asset.model.nodes[target.index].matrix.empty()) return;
+    const std::string what =
+        fmt::format("{}.target: found nodes[{}] that has a matrix, expected translation, rotation and scale",
+                    where, target.index);
+    if (asset.scene.nodes[static_cast<std::size_t>(shown)].matrix) refuse("{}", what);
+    asset.scene.warnings.push_back(what + "; taken apart.");
   }
 
   std::vector<int> users_of(const PointerTarget& target) const {
@@ -235,26 +236,36 @@ struct ClipBuilder {
     const auto& channel = source().channels[c];
     const std::string where = place("channels", c);
     if (channel.sampler < 0 || static_cast<std::size_t>(channel.sampler) >= source().samplers.size())
-      refuse("{}.sampler: found reference {}, expected one of the {} samplers", where, channel.sampler,
-             source().samplers.size());
+      refuse("{}.sampler: found reference {}, expected one of the {} of animations[{}].samplers", where,
+             channel.sampler, source().samplers.size(), index);
     const std::optional<PointerTarget> target = target_of(channel);
     if (!target) return;
     const bool of_node = target->table == PointerTable::nodes;
     if (of_node) check_node(*target, where);
+    const int components = components_of(*target);
+    if (components == 0) {
+      asset.scene.warnings.push_back(
+          fmt::format("{}.target: found weights of a mesh or node ({}[{}]) without morph "
+                      "targets, expected some; skipped.",
+                      where, of_node ? "nodes" : "meshes", target->index));
+      return;
+    }
     if (is_empty(source().samplers[static_cast<std::size_t>(channel.sampler)].input)) {
       ++aimless;
       return;
     }
-    const int components = components_of(*target);
-    if (components == 0)
-      refuse("{}.target: found weights of a mesh without morph targets, expected some", where);
-    if (!stated.insert({target->table, target->index, target->path}).second)
-      refuse("{}.target: found the same property driven twice, expected once", where);
+    const bool again = !stated.insert({target->table, target->index, target->path}).second;
+    if (again)
+      asset.scene.warnings.push_back(fmt::format(
+          "{}.target: found the same property driven twice, expected once; the last counts.", where));
     const int t = track(channel.sampler, components, *target);
     const std::vector<int> nodes = nodes_of(*target);
     asset.budget.take(nodes.size(), 64, where);
-    for (const int node : nodes)
-      if (driven.insert({node, target->path}).second) clip.channels.push_back({node, target->path, t});
+    for (const int node : nodes) {
+      const auto [known, is_new] = driven.try_emplace({node, target->path}, clip.channels.size());
+      if (is_new) clip.channels.push_back({node, target->path, t});
+      if (again) clip.channels[known->second].track = t;
+    }
   }
 
   /// All that is driven but not read, by name as far as a sentence goes.

@@ -1,7 +1,7 @@
 #include "formats/gltf/container.h"
 
+#include <algorithm>
 #include <cstdint>
-#include <cstring>
 
 #include "formats/import_failure.h"
 
@@ -31,43 +31,96 @@ void take_chunk(GltfContainer& result, std::uint32_t type, std::string_view body
   } else if (type == json_chunk) {
     refuse("GLB chunk {}: found a second JSON chunk, expected one", index);
   } else if (type == bin_chunk) {
-    if (index != 1) refuse("GLB chunk {}: found BIN, expected it right after JSON", index);
+    if (result.binary) refuse("GLB chunk {}: found a second BIN chunk, expected one", index);
+    if (index != 1)
+      result.warnings.push_back(fmt::format("GLB chunk {}: found BIN, expected it right after JSON.", index));
     result.binary = body;
   }  // other types are to be skipped
 }
 
-GltfContainer split_glb(std::string_view bytes) {
-  if (bytes.size() < 12) refuse("GLB header: found {} bytes, expected at least 12", bytes.size());
-  if (word(bytes, 0) != glb_magic) refuse("GLB header: found magic {:#010x}, expected glTF", word(bytes, 0));
-  if (word(bytes, 4) != 2) refuse("GLB header: found version {}, expected 2", word(bytes, 4));
-  if (word(bytes, 8) > bytes.size() || word(bytes, 8) < 12)
-    refuse("GLB header: found a stated length of {}, expected the file's {} bytes", word(bytes, 8),
+void check_glb_header(std::string_view bytes) {
+  if (bytes.size() < 12)
+    refuse("GLB header: found {} bytes, expected at least 12: the file is cut off, copy it again",
            bytes.size());
+  if (word(bytes, 0) != glb_magic) refuse("GLB header: found magic {:#010x}, expected glTF", word(bytes, 0));
+  if (word(bytes, 4) == 1)
+    refuse("GLB header: found version 1, expected 2: import it in Blender and export glTF 2.0");
+  if (word(bytes, 4) != 2) refuse("GLB header: found version {}, expected 2", word(bytes, 4));
+}
+
+/// Where the chunk after one of `length` bytes at `offset` begins: chunks whose length is no multiple of 4
+/// may or may not be padded, which the next chunk's type tells.
+std::size_t end_of_chunk(std::string_view bytes, std::size_t offset, std::size_t length) {
+  const std::size_t plain = offset + 8 + length, padded = (plain + 3) / 4 * 4;
+  const auto begins_binary = [&](std::size_t at) {
+    return bytes.size() >= at + 8 && word(bytes, at + 4) == bin_chunk;
+  };
+  if (begins_binary(plain)) return plain;
+  return begins_binary(padded) || padded == bytes.size() ? padded : plain;
+}
+
+GltfContainer split_glb(std::string_view bytes) {
+  check_glb_header(bytes);
   GltfContainer result;
-  result.bytes_behind = bytes.size() - word(bytes, 8);
-  bytes = bytes.substr(0, word(bytes, 8));
   result.is_glb = true;
+  const std::size_t stated = word(bytes, 8);
   std::size_t offset = 12;
-  for (int index = 0; offset < bytes.size(); ++index) {
-    if (bytes.size() - offset < 8)
-      refuse("GLB chunk {}: found {} bytes of header, expected 8", index, bytes.size() - offset);
+  constexpr std::size_t least = 20;  // header and one chunk's
+  const std::size_t end = stated < least ? bytes.size() : std::min(bytes.size(), stated);
+  for (int index = 0; offset < end; ++index) {
+    if (bytes.size() - offset < 8) {
+      if (result.json.empty())
+        refuse("GLB chunk {}: found {} bytes of header, expected 8: the file is cut off, copy it again",
+               index, bytes.size() - offset);
+      result.warnings.push_back(fmt::format("GLB chunk {}: found {} bytes of header, expected 8; not read.",
+                                            index, bytes.size() - offset));
+      offset = bytes.size();
+      break;
+    }
     const std::size_t length = word(bytes, offset);
-    if (length % 4 != 0) refuse("GLB chunk {}: found length {}, expected a multiple of 4", index, length);
+    if (length % 4 != 0)
+      result.warnings.push_back(
+          fmt::format("GLB chunk {}: found length {}, expected a multiple of 4.", index, length));
     if (length > bytes.size() - offset - 8)
-      refuse("GLB chunk {}: found length {}, expected at most {}", index, length, bytes.size() - offset - 8);
+      refuse(
+          "GLB chunk {}: found length {}, expected at most {} (stated length of the file {}, found {} "
+          "bytes): "
+          "the file is cut off, copy it again",
+          index, length, bytes.size() - offset - 8, stated, bytes.size());
     take_chunk(result, word(bytes, offset + 4), bytes.substr(offset + 8, length), index);
-    offset += 8 + length;
+    offset = end_of_chunk(bytes, offset, length);
   }
   if (result.json.empty()) refuse("GLB: found no chunk, expected JSON");
+  if (offset < bytes.size())
+    result.warnings.push_back(fmt::format(
+        "GLB: found {} bytes behind the end that its header states; not read.", bytes.size() - offset));
+  if (stated > bytes.size() || offset > stated)
+    result.warnings.push_back(
+        fmt::format("GLB header: found a stated length of {}, expected the file's {} bytes; its "
+                    "chunks are whole.",
+                    stated, bytes.size()));
   return result;
+}
+
+/// Without a byte order mark, and without zeros behind it, with which some exporters pad a chunk.
+void trim_json(GltfContainer& container) {
+  std::string_view& json = container.json;
+  if (json.starts_with("\xEF\xBB\xBF")) {
+    json.remove_prefix(3);
+    container.warnings.push_back("JSON: found a byte order mark, expected {.");
+  }
+  const std::size_t size = json.size();
+  while (!json.empty() && json.back() == '\0') json.remove_suffix(1);
+  if (json.size() < size) container.warnings.push_back("JSON: found zeros behind it, expected blanks.");
 }
 
 }  // namespace
 
 GltfContainer split_gltf(std::string_view bytes, bool expect_glb) {
-  if (expect_glb || (bytes.size() >= 4 && word(bytes, 0) == glb_magic)) return split_glb(bytes);
-  if (bytes.substr(0, 3) == "\xEF\xBB\xBF") refuse("JSON: found a byte order mark, expected {{");
-  return {bytes, std::nullopt, false};
+  const bool is_glb = expect_glb || (bytes.size() >= 4 && word(bytes, 0) == glb_magic);
+  GltfContainer container = is_glb ? split_glb(bytes) : GltfContainer{bytes, std::nullopt, false, {}};
+  trim_json(container);
+  return container;
 }
 
 void check_json_size(std::string_view json) {

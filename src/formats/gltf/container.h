@@ -11,10 +11,10 @@ struct GltfContainer {
   std::string_view json;
   std::optional<std::string_view> binary;  ///< the BIN chunk of a GLB
   bool is_glb = false;
-  std::size_t bytes_behind = 0;  ///< of the file after the end that a GLB states; not read
+  std::vector<std::string> warnings;  ///< breaches that leave in no doubt where the chunks lie
 };
 
-/// Splits `bytes` (views into it). Throws ImportFailure on what the GLB layout forbids.
+/// Splits `bytes` (views into it). Throws ImportFailure where a GLB's chunks are not whole or in doubt.
 GltfContainer split_gltf(std::string_view bytes, bool expect_glb);
 
 /// Refuses JSON too deep, or with too many values, for the parsers behind it: more than 64 levels, two

@@ -12,6 +12,7 @@ namespace {
 Scene read_gltf(const std::filesystem::path& path, const ImportOptions& options) {
   const std::string bytes = read_scene_file(path, options.files_read);
   gltf::Asset asset;
+  asset.root = options.root;
   asset.files_read = options.files_read;
   asset.scene.name = path.filename().string();
   constexpr std::uint64_t least = std::uint64_t{96} << 20;  // of the 256 MiB that a file of any size may take

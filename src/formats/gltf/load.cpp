@@ -62,10 +62,14 @@ bool leaves_geometry(std::string_view name) {
 void check_version(Asset& asset) {
   const std::string& version = asset.model.asset.version;
   const std::string& least = asset.model.asset.minVersion;
-  if (!version.starts_with("2.")) refuse("asset.version: found '{}', expected 2.x", version);
+  if (version.starts_with("1"))
+    refuse("asset.version: found '{}', expected 2.x: import it in Blender and export glTF 2.0", version);
+  if (version != "2" && !version.starts_with("2."))
+    refuse("asset.version: found '{}', expected 2.x", version);
   if (!least.empty() && !least.starts_with("2.")) refuse("asset.minVersion: found '{}', expected 2.x", least);
   if (version != "2.0" || (!least.empty() && least != "2.0"))
-    asset.scene.warnings.push_back(fmt::format("asset: found version {}; read as 2.0.", version));
+    asset.scene.warnings.push_back(
+        fmt::format("asset: found version {}; asset.version is read as 2.0.", version));
 }
 
 int base64_digit(char c) {
@@ -85,7 +89,7 @@ struct BufferSource {
     if (const Value* uri = member(buffer, "uri")) {
       const std::string& text = uri->Get<std::string>();
       if (text.starts_with("data:")) return decode_data_uri(text, place + ".uri");
-      const auto path = confine(folder, text, place + ".uri", true);
+      const auto path = confine(folder, text, place + ".uri", true, asset.root);
       try {
         std::string bytes = read_scene_file(path, asset.files_read);
         asset.budget.give(8 * bytes.size());
@@ -116,21 +120,25 @@ void load_buffers(const BufferSource& source) {
   for (std::size_t i = 0; i < buffers->ArrayLen(); ++i) {
     const Value& buffer = buffers->Get(i);
     const auto length = static_cast<std::uint64_t>(number_or(buffer, "byteLength", 0));
-    if (length == 0) refuse("buffers[{}].byteLength: found 0, expected 1 or more", i);
+    if (length == 0)
+      source.asset.scene.warnings.push_back(
+          fmt::format("buffers[{}].byteLength: found 0, expected 1 or more.", i));
     if (is_fallback(buffer)) {  // its views hold compressed copies of what would be in it
       source.asset.buffers.emplace_back();
       continue;
     }
     std::string bytes = source.read(buffer, i, length);
+    // What lies in it may be whole all the same: check_accessors tells.
     if (bytes.size() < length)
-      refuse("buffers[{}].byteLength: found {}, expected at most the {} bytes that are there", i, length,
-             bytes.size());
+      source.asset.scene.warnings.push_back(
+          fmt::format("buffers[{}].byteLength: found {}, expected at most the {} bytes that are there.", i,
+                      length, bytes.size()));
     const Value* uri = member(buffer, "uri");
     if (bytes.size() > length && uri && uri->Get<std::string>().starts_with("data:"))
       source.asset.scene.warnings.push_back(fmt::format(
           "buffers[{}].byteLength: found {}, expected the {} bytes of its uri; the others are not used.", i,
           length, bytes.size()));
-    bytes.resize(length);
+    bytes.resize(std::min<std::uint64_t>(bytes.size(), length));
     source.asset.decoded_allowed += 16 * bytes.size();
     source.asset.buffers.push_back(std::move(bytes));
   }
@@ -220,9 +228,7 @@ std::string decode_data_uri(const std::string& uri, const std::string& place) {
 void load_model(const std::filesystem::path& path, std::string_view bytes, Asset& asset) {
   const GltfContainer container = split_gltf(bytes, path.extension() == ".glb");
   check_json_size(container.json);
-  if (container.bytes_behind > 0)
-    asset.scene.warnings.push_back(fmt::format(
-        "GLB: found {} bytes behind the end that its header states; not read.", container.bytes_behind));
+  asset.scene.warnings = container.warnings;
   const std::string json = check_gltf_schema(container.json, asset.scene.warnings, asset.scene.unused);
   tinygltf::TinyGLTF reader;
   reader.SetFsCallbacks({no_file_exists, no_path, read_no_file, write_no_file, nullptr});

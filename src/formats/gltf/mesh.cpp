@@ -28,7 +28,8 @@ struct MeshBuilder {
       refuse("{}: found accessors[{}] of another type, expected {}", what, i,
              type == TINYGLTF_TYPE_VEC3 ? "VEC3" : "VEC4");
     if (source.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !integers_allowed)
-      refuse("{}: found accessors[{}] of integers, expected floats", what, i);
+      asset.scene.warnings.push_back(
+          fmt::format("{}: found accessors[{}] of integers, expected floats; read as they are.", what, i));
     return read_numbers(asset, i);
   }
 
@@ -45,11 +46,25 @@ struct MeshBuilder {
     return result;
   }
 
-  void check_attributes(const tinygltf::Primitive& primitive, std::size_t p, std::size_t count) {
+  /// `primitive` without attributes that are not needed and do not fit.
+  tinygltf::Primitive check_attributes(tinygltf::Primitive primitive, std::size_t p, std::size_t count) {
+    const auto does_not_fit = [&](const auto& attribute) {
+      const auto& [name, i] = attribute;
+      if (name == "NORMAL" && accessor(i).type != TINYGLTF_TYPE_VEC3) {
+        asset.scene.warnings.push_back(
+            fmt::format("{}.attributes.NORMAL: found accessors[{}] of another type, expected VEC3; left out.",
+                        place(p), i));
+        return true;
+      }
+      if (accessor(i).count == count) return false;
+      const std::string what = fmt::format("{}.attributes.{}: found {} elements, expected the {} of POSITION",
+                                           place(p), name, accessor(i).count, count);
+      if (name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_")) refuse("{}", what);
+      asset.scene.warnings.push_back(what + "; left out.");
+      return true;
+    };
+    std::erase_if(primitive.attributes, does_not_fit);
     for (const auto& [name, i] : primitive.attributes) {
-      if (accessor(i).count != count)
-        refuse("{}.attributes.{}: found {} elements, expected the {} of POSITION", place(p), name,
-               accessor(i).count, count);
       const bool known = name == "POSITION" || name == "NORMAL" || name == "TANGENT" ||
                          name.starts_with("TEXCOORD_") || name.starts_with("COLOR_") ||
                          name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_") || name.starts_with("_");
@@ -59,6 +74,7 @@ struct MeshBuilder {
       ignored_sets |= name.starts_with("JOINTS_") && name != "JOINTS_0" && name != "JOINTS_1";
       if (name == "TANGENT") check_tangents(i, p);
     }
+    return primitive;
   }
 
   void check_tangents(int i, std::size_t p) {
@@ -183,7 +199,7 @@ struct MeshBuilder {
                                                               : asset.model.materials.size());
   }
 
-  void add_primitive(const tinygltf::Primitive& primitive, std::size_t p) {
+  void add_primitive(tinygltf::Primitive primitive, std::size_t p) {
     if (primitive.mode < -1 || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
       asset.scene.warnings.push_back(
           fmt::format("{}.mode: found {}, expected 0 to 6; skipped.", place(p), primitive.mode));
@@ -196,7 +212,7 @@ struct MeshBuilder {
       return;
     }
     const std::vector<glm::vec3> positions = read_vec3(position->second, place(p) + ".attributes.POSITION");
-    check_attributes(primitive, p, positions.size());
+    primitive = check_attributes(std::move(primitive), p, positions.size());
     const auto corners = corner_list(primitive, p, positions.size());
     if (mode < TINYGLTF_MODE_TRIANGLES) {
       ++lines;

@@ -44,10 +44,12 @@ struct Asset {
   std::vector<std::string> buffers;  ///< bytes of model.buffers
   Budget budget{0};
   std::uint64_t decoded_allowed = 0;  ///< bytes of decoded geometry that may still count as the file's own
+  std::vector<bool> animated;         ///< for each node of the file: a channel drives it
   bool scene_chosen = false;          ///< by the user
   /// Nodes of the scene, the first and how many, that show the instances of one.
   std::map<int, std::pair<int, int>> instances;
   Scene scene;                                               ///< what is being built; its warnings too
+  std::filesystem::path root;                                ///< ImportOptions'
   std::vector<std::filesystem::path>* files_read = nullptr;  ///< ImportOptions'
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "formats/gltf/model.h"
+#include "formats/gltf/pointer.h"
 
 namespace tenebra::formats::gltf {
 namespace {
@@ -21,6 +22,12 @@ std::vector<int> find_parents(const Model& model) {
   return parents;
 }
 
+/// The nodes that are shown, parents first.
+struct ShownNodes {
+  std::vector<int> order;
+  std::vector<bool> bare;  ///< for each node of the file: it is there for its transform alone
+};
+
 /// Depth-first from `roots`, parents before children; nodes on a cycle are never reached from a root.
 std::vector<int> order_from(const Model& model, const std::vector<int>& roots) {
   std::vector<int> order, stack(roots.rbegin(), roots.rend());
@@ -32,6 +39,26 @@ std::vector<int> order_from(const Model& model, const std::vector<int>& roots) {
     stack.insert(stack.end(), children.rbegin(), children.rend());
   }
   return order;
+}
+
+/// The nodes of `listed` that are under no other of them.
+std::vector<int> topmost(const std::vector<int>& parents, const std::vector<int>& listed) {
+  std::vector<bool> is_listed(parents.size(), false),
+      is_clear(parents.size(), false);  // clear: none is above it
+  for (const int node : listed) is_listed[static_cast<std::size_t>(node)] = true;
+  std::vector<int> tops;
+  for (const int node : listed) {
+    int above = parents[static_cast<std::size_t>(node)];
+    while (above >= 0 && !is_listed[static_cast<std::size_t>(above)] &&
+           !is_clear[static_cast<std::size_t>(above)])
+      above = parents[static_cast<std::size_t>(above)];
+    if (above >= 0 && is_listed[static_cast<std::size_t>(above)]) continue;
+    for (int i = parents[static_cast<std::size_t>(node)]; i >= 0 && !is_clear[static_cast<std::size_t>(i)];
+         i = parents[static_cast<std::size_t>(i)])
+      is_clear[static_cast<std::size_t>(i)] = true;
+    tops.push_back(node);
+  }
+  return tops;
 }
 
 void check_reached(const std::vector<int>& order, std::size_t count) {
@@ -52,7 +79,10 @@ std::vector<int> default_roots(Asset& asset, const std::vector<int>& parents) {
   for (std::size_t s = 0; s < model.scenes.size(); ++s)
     for (const int node : model.scenes[s].nodes)
       if (parents[static_cast<std::size_t>(node)] >= 0)
-        refuse("scenes[{}].nodes: found node {} which is a child, expected root nodes", s, node);
+        asset.scene.warnings.push_back(
+            fmt::format("scenes[{}].nodes: found node {} which is a child, expected root nodes; shown once, "
+                        "under its parent.",
+                        s, node));
   auto& warnings = asset.scene.warnings;
   if (model.scenes.empty()) {
     if (!roots.empty()) warnings.push_back("The file has no scenes: all root nodes are shown.");
@@ -64,6 +94,35 @@ std::vector<int> default_roots(Asset& asset, const std::vector<int>& parents) {
     warnings.push_back(fmt::format("The file has {} scenes: number {} is shown, --scene shows another.",
                                    model.scenes.size(), std::max(model.defaultScene, 0)));
   return model.scenes[static_cast<std::size_t>(std::max(model.defaultScene, 0))].nodes;
+}
+
+/// Appends `node` and its ancestors as bare nodes, as far as they are not there yet.
+void add_bare(const std::vector<int>& parents, int node, std::vector<bool>& known, ShownNodes& shown) {
+  std::vector<int> chain;
+  for (; node >= 0 && !known[static_cast<std::size_t>(node)]; node = parents[static_cast<std::size_t>(node)])
+    chain.push_back(node);
+  for (auto at = chain.rbegin(); at != chain.rend(); ++at) {
+    known[static_cast<std::size_t>(*at)] = shown.bare[static_cast<std::size_t>(*at)] = true;
+    shown.order.push_back(*at);
+  }
+}
+
+/// All below the nodes that the scene lists, each once, where its tree puts it. What the scene does not list
+/// but the place of these, or of the joints of a skin, depends on is there without what it shows.
+ShownNodes shown_nodes(const Model& model, const std::vector<int>& parents, const std::vector<int>& listed) {
+  const std::vector<int> full = order_from(model, topmost(parents, listed));
+  ShownNodes shown{{}, std::vector<bool>(model.nodes.size(), false)};
+  std::vector<bool> known(model.nodes.size(), false);
+  for (const int node : full) known[static_cast<std::size_t>(node)] = true;
+  for (const int node : listed) add_bare(parents, parents[static_cast<std::size_t>(node)], known, shown);
+  shown.order.insert(shown.order.end(), full.begin(), full.end());
+  for (const int node : full) {
+    const int skin = model.nodes[static_cast<std::size_t>(node)].skin;
+    if (skin < 0) continue;
+    for (const int joint : model.skins[static_cast<std::size_t>(skin)].joints)
+      add_bare(parents, joint, known, shown);
+  }
+  return shown;
 }
 
 glm::dmat4 to_matrix(const std::vector<double>& m) {
@@ -90,14 +149,13 @@ bool decompose(const glm::dmat4& m, Node& node) {
 }
 
 void set_matrix(Asset& asset, const tinygltf::Node& source, int index, Node& node) {
-  if (!source.translation.empty() || !source.rotation.empty() || !source.scale.empty())
-    refuse("nodes[{}].matrix: found beside translation, rotation or scale, expected one or the other", index);
   const auto& m = source.matrix;
   if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
     refuse("nodes[{}].matrix: found a last row that is not 0 0 0 1, expected an affine matrix", index);
   node.matrix = to_matrix(m);
+  // A rotation is rounded: a matrix that nothing moves stays as it is written.
   if (decompose(*node.matrix, node)) {
-    node.matrix.reset();
+    if (asset.animated[static_cast<std::size_t>(index)]) node.matrix.reset();
   } else {
     asset.scene.warnings.push_back(fmt::format(
         "nodes[{}].matrix: found no product of translation, rotation and scale; used as it stands.", index));
@@ -120,12 +178,15 @@ void set_transform(Asset& asset, const tinygltf::Node& source, int index, Node& 
   node.rotation = rotation / length;
 }
 
-void set_mesh(const Asset& asset, const tinygltf::Node& source, int index, Node& node) {
+void set_mesh(Asset& asset, const tinygltf::Node& source, int index, Node& node) {
   node.mesh = source.mesh;
   node.skin = source.skin;
-  if (source.skin >= 0 && source.mesh < 0)
-    refuse("nodes[{}].skin: found no mesh beside it, expected one", index);
-  if (source.skin >= 0 && asset.scene.meshes[static_cast<std::size_t>(source.mesh)].joints.empty() &&
+  if (source.skin >= 0 && source.mesh < 0) {
+    asset.scene.warnings.push_back(
+        fmt::format("nodes[{}].skin: found no mesh beside it, expected one.", index));
+    node.skin = -1;
+  }
+  if (node.skin >= 0 && asset.scene.meshes[static_cast<std::size_t>(source.mesh)].joints.empty() &&
       !asset.scene.meshes[static_cast<std::size_t>(source.mesh)].triangles.empty())
     refuse("nodes[{}].skin: found a mesh without JOINTS_0 in all primitives, expected them", index);
   if (source.weights.empty()) return;
@@ -184,6 +245,19 @@ void leave_out(Asset& asset, Node& node, std::vector<int>& silent_mesh) {
   node.mesh = copy;
 }
 
+void note_animated(Asset& asset) {
+  asset.animated.assign(asset.model.nodes.size(), false);
+  for (const auto& animation : asset.model.animations)
+    for (const auto& channel : animation.channels) {
+      if (channel.target_node >= 0) asset.animated[static_cast<std::size_t>(channel.target_node)] = true;
+      const auto found = channel.target_extensions.find("KHR_animation_pointer");
+      const Value* pointer =
+          found == channel.target_extensions.end() ? nullptr : member(found->second, "pointer");
+      const auto read = pointer == nullptr ? std::nullopt : read_pointer(asset, pointer->Get<std::string>());
+      if (read && read->table == PointerTable::nodes) asset.animated[read->index] = true;
+    }
+}
+
 /// A mesh can stand at any number of nodes: the size of the frame that is made of them must be limited.
 void check_size(const Scene& scene) {
   constexpr std::size_t most = 50'000'000;
@@ -203,7 +277,8 @@ void check_size(const Scene& scene) {
 std::vector<int> build_nodes(Asset& asset) {
   const Model& model = asset.model;
   const std::vector<int> parents = find_parents(model);
-  const std::vector<int> order = order_from(model, default_roots(asset, parents));
+  note_animated(asset);
+  const ShownNodes shown = shown_nodes(model, parents, default_roots(asset, parents));
   std::vector<int> scene_node(model.nodes.size(), -1);
   std::vector<int> silent_mesh(asset.scene.meshes.size(), -1);
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {  // nodes that are not shown must be right too
@@ -211,13 +286,15 @@ std::vector<int> build_nodes(Asset& asset) {
     lights_of(asset, model.nodes[i], static_cast<int>(i));
   }
   const std::size_t warned = asset.scene.warnings.size();
-  for (const int index : order) {
+  for (const int index : shown.order) {
     Node node = read_node(asset, index);
+    const bool bare = shown.bare[static_cast<std::size_t>(index)];
+    if (bare) node.mesh = node.skin = node.camera = -1, node.weights.clear();
     const auto& source = model.nodes[static_cast<std::size_t>(index)];
     const int parent = parents[static_cast<std::size_t>(index)];
     node.parent = parent < 0 ? -1 : scene_node[static_cast<std::size_t>(parent)];
     if (says_no_shadow(source.extras)) leave_out(asset, node, silent_mesh);
-    const std::vector<int> lights = lights_of(asset, source, index);
+    const std::vector<int> lights = bare ? std::vector<int>() : lights_of(asset, source, index);
     if (!lights.empty()) node.light = lights[0];
     const int self = static_cast<int>(asset.scene.nodes.size());
     scene_node[static_cast<std::size_t>(index)] = self;
@@ -231,7 +308,7 @@ std::vector<int> build_nodes(Asset& asset) {
   }
   asset.scene.warnings.resize(warned);  // the first reading has said it
   for (std::size_t i = 0; i < scene_node.size(); ++i)
-    if (scene_node[i] >= 0) add_instances(asset, static_cast<int>(i), scene_node[i]);
+    if (scene_node[i] >= 0 && !shown.bare[i]) add_instances(asset, static_cast<int>(i), scene_node[i]);
   check_size(asset.scene);
   return scene_node;
 }
@@ -258,7 +335,9 @@ void choose_scene(Asset& asset, const std::string& wanted) {
 
 namespace {
 
-void check_common_root(const std::vector<int>& joints, const std::vector<int>& parents, std::size_t skin) {
+/// Each joint has a place all the same.
+void check_common_root(const std::vector<int>& joints, const std::vector<int>& parents, std::size_t skin,
+                       std::vector<std::string>& warnings) {
   std::vector<int> root(parents.size(), -1);  // known roots, so that long chains are climbed once
   int common = -1;
   for (const int joint : joints) {
@@ -270,23 +349,31 @@ void check_common_root(const std::vector<int>& joints, const std::vector<int>& p
          node = parents[static_cast<std::size_t>(node)])
       root[static_cast<std::size_t>(node)] = top;
     if (common >= 0 && top != common)
-      refuse("skins[{}].joints: found joints under different roots, expected one", skin);
+      return warnings.push_back(
+          fmt::format("skins[{}].joints: found joints under different roots, expected one.", skin));
     common = top;
   }
 }
 
-void check_joints_in_range(const Asset& asset) {
+/// A joint that does not exist is refused where it has a weight.
+void check_joints_in_range(Asset& asset) {
   for (std::size_t n = 0; n < asset.scene.nodes.size(); ++n) {
     const Node& node = asset.scene.nodes[n];
     if (node.skin < 0) continue;
-    const Mesh& mesh = asset.scene.meshes[static_cast<std::size_t>(node.mesh)];
+    Mesh& mesh = asset.scene.meshes[static_cast<std::size_t>(node.mesh)];
     const std::size_t joints = asset.scene.skins[static_cast<std::size_t>(node.skin)].joints.size();
-    for (const auto* list : {&mesh.joints, &mesh.more_joints})
-      for (const glm::u16vec4& vertex : *list)
-        for (int c = 0; c < 4; ++c)
-          if (vertex[c] >= joints)
-            refuse("{} JOINTS_{}: found joint {}, expected less than the {} of skins[{}]", mesh.source,
-                   list == &mesh.joints ? 0 : 1, vertex[c], joints, node.skin);
+    for (auto* const list : {&mesh.joints, &mesh.more_joints}) {
+      const auto& weights = list == &mesh.joints ? mesh.weights : mesh.more_weights;
+      for (std::size_t v = 0; v < list->size(); ++v)
+        for (int c = 0; c < 4; ++c) {
+          std::uint16_t& joint = (*list)[v][c];
+          if (joint < joints) continue;
+          if (weights[v][c] != 0)
+            refuse("{} JOINTS_{}: found joint {}, expected less than the {} of skins[{}].joints", mesh.source,
+                   list == &mesh.joints ? 0 : 1, joint, joints, node.skin);
+          joint = 0;
+        }
+    }
   }
 }
 
@@ -310,7 +397,7 @@ void build_skins(Asset& asset, const std::vector<int>& scene_node) {
   for (std::size_t s = 0; s < asset.model.skins.size(); ++s) {
     const auto& source = asset.model.skins[s];
     Skin skin;
-    check_common_root(source.joints, parents, s);
+    check_common_root(source.joints, parents, s, asset.scene.warnings);
     for (const int joint : source.joints) {
       skin.joints.push_back(scene_node[static_cast<std::size_t>(joint)]);
       if (used[s] && skin.joints.back() < 0)

@@ -13,12 +13,19 @@ glm::vec3 vec3_or(const std::vector<double>& numbers, glm::vec3 otherwise) {
   return numbers.size() < 3 ? otherwise : glm::vec3(numbers[0], numbers[1], numbers[2]);
 }
 
-double at_least_zero(double value, const std::string& place) {
-  if (value < 0) refuse("{}: found {}, expected 0 or more", place, value);
-  return value;
+/// `value` if it is right, else `otherwise`, with a sentence.
+double right_or(bool right, double value, double otherwise, const std::string& place, const char* expected,
+                std::vector<std::string>& warnings) {
+  if (right) return value;
+  warnings.push_back(fmt::format("{}: found {}, expected {}; made {}.", place, value, expected, otherwise));
+  return otherwise;
 }
 
-Light read_area_light(const Value& value, const std::string& place) {
+double at_least_zero(double value, const std::string& place, std::vector<std::string>& warnings) {
+  return right_or(value >= 0, value, 0, place, "0 or more", warnings);
+}
+
+Light read_area_light(const Value& value, const std::string& place, std::vector<std::string>& warnings) {
   Light light;
   const std::string type = member(value, "type")->Get<std::string>();
   if (type != "rect" && type != "disk") refuse("{}.type: found '{}', expected rect or disk", place, type);
@@ -27,30 +34,37 @@ Light read_area_light(const Value& value, const std::string& place) {
   if (const Value* color = member(value, "color"))
     light.color = {color->Get(0).GetNumberAsDouble(), color->Get(1).GetNumberAsDouble(),
                    color->Get(2).GetNumberAsDouble()};
-  light.intensity = static_cast<float>(at_least_zero(number_or(value, "intensity", 1), place + ".intensity"));
-  const double size = at_least_zero(number_or(value, "size", 1), place + ".size");
+  light.intensity =
+      static_cast<float>(at_least_zero(number_or(value, "intensity", 1), place + ".intensity", warnings));
+  const double size = at_least_zero(number_or(value, "size", 1), place + ".size", warnings);
   const Value* rect = member(value, "rect");
-  const double aspect = rect ? at_least_zero(number_or(*rect, "aspect", 1), place + ".rect.aspect") : 1;
+  const double aspect =
+      rect ? at_least_zero(number_or(*rect, "aspect", 1), place + ".rect.aspect", warnings) : 1;
   light.size_m = {size * (type == "rect" ? aspect : 1), size};
   return light;
 }
 
-void read_spot(const tinygltf::SpotLight& spot, const std::string& place, Light& light) {
-  if (!(spot.innerConeAngle >= 0 && spot.innerConeAngle <= spot.outerConeAngle &&
-        spot.outerConeAngle <= std::numbers::pi / 2 + 1e-6))
-    refuse("{}.spot: found cone angles {} and {}, expected 0 <= inner <= outer <= pi/2", place,
-           spot.innerConeAngle, spot.outerConeAngle);
+/// Equal angles are a cone with a sharp edge.
+void read_spot(const tinygltf::SpotLight& spot, const std::string& place, Light& light,
+               std::vector<std::string>& warnings) {
+  const double outer = std::clamp(spot.outerConeAngle, 0.0, std::numbers::pi / 2);
+  const double inner = std::clamp(spot.innerConeAngle, 0.0, outer);
+  if (inner != spot.innerConeAngle || std::abs(outer - spot.outerConeAngle) > 1e-6)
+    warnings.push_back(fmt::format(
+        "{}.spot: found cone angles {} and {}, expected 0 <= inner <= outer <= pi/2; made {} and {}.", place,
+        spot.innerConeAngle, spot.outerConeAngle, inner, outer));
   light.type = LightType::spot;
-  light.inner_cone_rad = static_cast<float>(spot.innerConeAngle);
-  light.outer_cone_rad = static_cast<float>(spot.outerConeAngle);
+  light.inner_cone_rad = static_cast<float>(inner);
+  light.outer_cone_rad = static_cast<float>(outer);
 }
 
-void read_sun(const tinygltf::Light& source, const std::string& place, Light& light) {
+void read_sun(const tinygltf::Light& source, const std::string& place, Light& light,
+              std::vector<std::string>& warnings) {
   light.type = LightType::directional;
   const double diameter = number_or(source.extras, "diameter_deg", 0);
-  if (!(diameter >= 0 && diameter <= 90))
-    refuse("{}.extras.diameter_deg: found {}, expected 0 to 90 degrees", place, diameter);
-  light.diameter_deg = static_cast<float>(diameter);
+  light.diameter_deg =
+      static_cast<float>(right_or(diameter >= 0 && diameter <= 90, diameter, 0,
+                                  place + ".extras.diameter_deg", "0 to 90 degrees", warnings));
 }
 
 Light read_punctual_light(const tinygltf::Light& source, const std::string& place,
@@ -58,8 +72,8 @@ Light read_punctual_light(const tinygltf::Light& source, const std::string& plac
   Light light;
   light.name = source.name;
   light.color = vec3_or(source.color, glm::vec3(1));
-  light.intensity = static_cast<float>(at_least_zero(source.intensity, place + ".intensity"));
-  if (at_least_zero(source.range, place + ".range") > 0 && source.type != "directional")
+  light.intensity = static_cast<float>(at_least_zero(source.intensity, place + ".intensity", warnings));
+  if (at_least_zero(source.range, place + ".range", warnings) > 0 && source.type != "directional")
     light.range_m = static_cast<float>(source.range);
   if (const Value* falloff = member(source.extras, "falloff");
       falloff && falloff->Get<std::string>() == "none") {
@@ -67,9 +81,9 @@ Light read_punctual_light(const tinygltf::Light& source, const std::string& plac
     light.intensity = static_cast<float>(number_or(source.extras, "intensity", source.intensity));
   }
   if (source.type == "spot")
-    read_spot(source.spot, place, light);
+    read_spot(source.spot, place, light, warnings);
   else if (source.type == "directional")
-    read_sun(source, place, light);
+    read_sun(source, place, light, warnings);
   else if (source.type != "point") {
     warnings.push_back(fmt::format("{}.type: found '{}', expected point, spot or directional; it stays dark.",
                                    place, source.type.substr(0, 40)));
@@ -80,28 +94,30 @@ Light read_punctual_light(const tinygltf::Light& source, const std::string& plac
 
 void read_perspective(const tinygltf::PerspectiveCamera& source, const std::string& place, Camera& camera,
                       std::vector<std::string>& warnings) {
-  constexpr double widest = 3.1;
-  if (!(source.yfov > 0)) refuse("{}.yfov: found {}, expected more than 0", place, source.yfov);
-  if (source.yfov >= std::numbers::pi)
-    warnings.push_back(
-        fmt::format("{}.yfov: found {}, expected less than pi; made {}.", place, source.yfov, widest));
-  if (source.znear <= 0) refuse("{}.znear: found {}, expected more than 0", place, source.znear);
+  constexpr double widest = 3.1, usual = 0.8;
+  double yfov = right_or(source.yfov > 0, source.yfov, usual, place + ".yfov", "more than 0", warnings);
+  yfov = right_or(yfov < std::numbers::pi, yfov, widest, place + ".yfov", "less than pi", warnings);
+  camera.vertical_fov_rad = static_cast<float>(yfov);
+  camera.near_m = static_cast<float>(
+      right_or(source.znear > 0, source.znear, camera.near_m, place + ".znear", "more than 0", warnings));
   if (source.zfar != 0 && source.zfar <= source.znear)
-    refuse("{}.zfar: found {}, expected more than znear {}", place, source.zfar, source.znear);
-  camera.vertical_fov_rad = static_cast<float>(source.yfov < std::numbers::pi ? source.yfov : widest);
-  camera.near_m = static_cast<float>(source.znear);
+    warnings.push_back(fmt::format("{}.zfar: found {}, expected more than znear {}; there is no far plane.",
+                                   place, source.zfar, source.znear));
   if (source.aspectRatio > 0) camera.aspect = static_cast<float>(source.aspectRatio);
 }
 
-void read_orthographic(const tinygltf::OrthographicCamera& source, const std::string& place, Camera& camera) {
-  if (source.xmag == 0 || source.ymag == 0)
-    refuse("{}: found xmag {} and ymag {}, expected both not zero", place, source.xmag, source.ymag);
-  if (source.znear < 0 || source.zfar <= source.znear)
-    refuse("{}: found znear {} and zfar {}, expected 0 <= znear < zfar", place, source.znear, source.zfar);
+void read_orthographic(const tinygltf::OrthographicCamera& source, const std::string& place, Camera& camera,
+                       std::vector<std::string>& warnings) {
   camera.projection = Projection::orthographic;
+  camera.near_m = static_cast<float>(at_least_zero(source.znear, place + ".znear", warnings));
+  if (source.zfar <= source.znear)
+    warnings.push_back(fmt::format("{}.zfar: found {}, expected more than znear {}; there is no far plane.",
+                                   place, source.zfar, source.znear));
+  if (source.xmag == 0 || source.ymag == 0)
+    return warnings.push_back(fmt::format("{}: found xmag {} and ymag {}, expected both not zero; made 1.",
+                                          place, source.xmag, source.ymag));
   camera.vertical_extent_m = static_cast<float>(2 * std::abs(source.ymag));
   camera.aspect = static_cast<float>(std::abs(source.xmag / source.ymag));
-  camera.near_m = static_cast<float>(source.znear);
 }
 
 }  // namespace
@@ -115,7 +131,7 @@ void build_cameras(Asset& asset) {
     if (source.type == "perspective")
       read_perspective(source.perspective, place + ".perspective", camera, asset.scene.warnings);
     else if (source.type == "orthographic")
-      read_orthographic(source.orthographic, place + ".orthographic", camera);
+      read_orthographic(source.orthographic, place + ".orthographic", camera, asset.scene.warnings);
     else
       refuse("{}.type: found '{}', expected perspective or orthographic", place, source.type);
     asset.scene.cameras.push_back(std::move(camera));
@@ -131,8 +147,8 @@ void build_lights(Asset& asset) {
   const auto area = asset.model.extensions.find("EXT_lights_area");
   const Value* lights = area == asset.model.extensions.end() ? nullptr : member(area->second, "lights");
   for (std::size_t i = 0; lights && i < lights->ArrayLen(); ++i)
-    asset.scene.lights.push_back(
-        read_area_light(lights->Get(i), fmt::format("extensions.EXT_lights_area.lights[{}]", i)));
+    asset.scene.lights.push_back(read_area_light(
+        lights->Get(i), fmt::format("extensions.EXT_lights_area.lights[{}]", i), asset.scene.warnings));
 }
 
 void build_surroundings(Asset& asset) {

@@ -103,7 +103,7 @@ void Textures::check_source(int index, const std::filesystem::path& folder) {
   if (const Value* uri = member(image, "uri")) {
     if (is_data(text_of(uri))) return;
     try {
-      confine(folder, text_of(uri), place + ".uri", true);
+      confine(folder, text_of(uri), place + ".uri", true, asset_.root);
     } catch (const ImportFailure& failure) {
       warnings.push_back(fmt::format("{}; the image is not read.", failure.what()));
       known_[index] = -1;

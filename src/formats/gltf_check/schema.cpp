@@ -46,6 +46,47 @@ void replace_unknown_cameras(Json& root, std::vector<std::string>& warnings) {
   }
 }
 
+std::set<std::size_t> animated_nodes(const Json& root) {
+  std::set<std::size_t> nodes;
+  if (!root.contains("animations")) return nodes;
+  for (const Json& animation : root["animations"])
+    for (const Json& channel : animation["channels"])
+      if (channel["target"].contains("node")) nodes.insert(channel["target"]["node"].get<std::size_t>());
+  return nodes;
+}
+
+/// A node states its place once; what is stated beside it and moves nothing is dropped.
+void part_matrix_from_parts(Json& root, std::vector<std::string>& warnings) {
+  static const std::pair<const char*, Json> parts[] = {
+      {"translation", {0, 0, 0}}, {"rotation", {0, 0, 0, 1}}, {"scale", {1, 1, 1}}};
+  static const Json unit = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  if (!root.contains("nodes")) return;
+  const std::set<std::size_t> animated = animated_nodes(root);
+  for (std::size_t i = 0; i < root["nodes"].size(); ++i) {
+    Json& node = root["nodes"][i];
+    if (!node.contains("matrix")) continue;
+    bool beside = false, moves = false;
+    for (const auto& [name, at_rest] : parts) {
+      beside |= node.contains(name);
+      moves |= node.contains(name) && node[name] != at_rest;
+    }
+    const bool is_unit = node["matrix"] == unit;
+    if (!beside) continue;
+    if (moves && !is_unit)
+      refuse("nodes[{}].matrix: found beside translation, rotation or scale, expected one or the other", i);
+    if (!is_unit || animated.contains(i))
+      warnings.push_back(fmt::format(
+          "nodes[{}].matrix: found beside translation, rotation or scale, expected one or the other; what "
+          "moves nothing is left out.",
+          i));
+    if (moves || (is_unit && animated.contains(i))) {
+      node.erase("matrix");
+      continue;
+    }
+    for (const auto& [name, at_rest] : parts) node.erase(name);
+  }
+}
+
 /// tinygltf refuses indices without a bufferView (zeros, or compressed ones): they pass it under `extras`.
 void hide_indices_without_view(Json& root) {
   if (!root.contains("meshes") || !root.contains("accessors")) return;
@@ -66,6 +107,13 @@ void mark_channels_without_nodes(Json& root) {
       if (!channel["target"].contains("node")) channel["target"]["node"] = -1;
 }
 
+/// "version": 2.0 means what "2.0" does.
+void write_version_as_text(Json& root) {
+  if (!root.is_object() || !root.contains("asset") || !root["asset"].is_object()) return;
+  Json& asset = root["asset"];
+  if (asset.contains("version") && asset["version"].is_number()) asset["version"] = asset["version"].dump();
+}
+
 }  // namespace
 
 std::string check_gltf_schema(std::string_view json, std::vector<std::string>& warnings,
@@ -78,8 +126,10 @@ std::string check_gltf_schema(std::string_view json, std::vector<std::string>& w
   } catch (const Json::out_of_range&) {
     refuse("JSON: found a number beyond the range of double, expected a smaller one");
   }
+  write_version_as_text(root);
   name_unused_looks(root, warnings, unused);
   schema::check_fields(root, warnings);
+  part_matrix_from_parts(root, warnings);
   blank_unknown_accessors(root, warnings);
   replace_unknown_cameras(root, warnings);
   mark_channels_without_nodes(root);

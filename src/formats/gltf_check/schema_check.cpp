@@ -17,11 +17,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// What only looks depend on: a fault there costs the texture or the extension, never the scene.
-bool is_about_looks(std::string_view name) {
-  static const std::set<std::string_view> plain = {"textures",       "images",         "samplers",
-                                                   "alphaMode",      "alphaCutoff",    "doubleSided",
-                                                   "metallicFactor", "roughnessFactor"};
+/// What is not needed, or what only looks depend on: a fault there costs the name, the texture or the
+/// extension, never the scene.
+bool is_harmless(std::string_view name) {
+  static const std::set<std::string_view> plain = {
+      "textures",    "images",         "samplers",        "alphaMode",  "alphaCutoff",
+      "doubleSided", "metallicFactor", "roughnessFactor", "name",       "min",
+      "max",         "target",         "skeleton",        "minVersion", "extensionsUsed"};
   return plain.contains(name) || name.ends_with("Texture") || name.starts_with("KHR_materials_") ||
          name.starts_with("KHR_texture_") || name == "EXT_texture_webp";
 }
@@ -39,6 +41,7 @@ private:
   void check_object(Json& object, const std::string& path, std::span<const Field> fields) {
     if (!object.is_object()) refuse("{}: found {}, expected an object", path, object.type_name());
     std::set<std::string_view> kept;
+    constexpr std::string_view name = "name";
     for (const Field& field : fields) {
       const auto found = object.find(field.name);
       const std::string place = path.empty() ? field.name : path + "." + field.name;
@@ -46,8 +49,8 @@ private:
         if (field.required) refuse("{}: found nothing, expected this property", place);
         continue;
       }
-      // Samplers of animations share their name with the samplers of textures.
-      if (is_about_looks(field.name) && !path.starts_with("animations")) {
+      // Samplers and targets of animations share their names with what matters to textures and views.
+      if (is_harmless(field.name) && (field.name == name || !path.starts_with("animations"))) {
         if (check_harmless(*found, place, field)) kept.insert(field.name);
       } else if (!drop_if_empty(*found, place, field)) {
         check_value(*found, place, field);
@@ -78,7 +81,7 @@ private:
       check(place);
       return true;
     } catch (const ImportFailure& failure) {
-      warnings_.push_back(fmt::format("{}; it only matters to looks and is left out.", failure.what()));
+      warnings_.push_back(fmt::format("{}; it is not needed and is left out.", failure.what()));
       return false;
     }
   }
@@ -129,7 +132,7 @@ private:
   template <class Check>
   void check_items(Json& value, const std::string& place, Check check) {
     if (!value.is_array()) refuse("{}: found {}, expected an array", place, shorten(value));
-    if (value.empty()) refuse("{}: found an empty array, expected at least one entry", place);
+    if (value.empty()) warnings_.push_back(fmt::format("{}: found an empty array, expected entries.", place));
     for (std::size_t i = 0; i < value.size(); ++i) check(value[i], fmt::format("{}[{}]", place, i));
   }
 
@@ -139,13 +142,18 @@ private:
       refuse("{}: found {} numbers, expected {}", place, value.size(), length);
   }
 
+  /// What is named twice counts once, but for joints, whose place in the list matters.
   void check_refs(Json& value, const std::string& place, const char* section) {
     std::set<std::uint64_t> seen;
+    Json once = Json::array();
     check_items(value, place, [&](Json& item, const std::string& at) {
       check_ref(item, at, section);
-      if (!seen.insert(item.get<std::uint64_t>()).second)
-        refuse("{}: found {} twice, expected each once", at, shorten(item));
+      if (seen.insert(item.get<std::uint64_t>()).second)
+        once.push_back(item);
+      else
+        warnings_.push_back(fmt::format("{}: found {} twice, expected each once.", at, shorten(item)));
     });
+    if (!place.ends_with(".joints")) value = std::move(once);
   }
 
   void check_value(Json& value, const std::string& place, const Field& field) {

@@ -30,6 +30,7 @@ std::string shown(const std::string& name) {
 SceneImages::SceneImages(Scene& scene, const fs::path& folder, const ImportOptions& options)
     : scene_(scene),
       folders_{folder, folder / "textures", folder / "TextureFiles"},
+      root_(options.root),
       files_read_(options.files_read) {
   folders_.insert(folders_.end(), options.texture_paths.begin(), options.texture_paths.end());
 }
@@ -44,8 +45,9 @@ int SceneImages::fail(const std::string& name, const std::string& why) {
 fs::path SceneImages::search(const std::string& name, const std::string& place, bool percent_encoded) {
   std::string refusal;
   for (const fs::path& folder : folders_) {
+    const bool beside_scene = &folder == &folders_.front();
     try {
-      const fs::path file = confine(folder, name, place, percent_encoded);
+      const fs::path file = confine(folder, name, place, percent_encoded, beside_scene ? root_ : fs::path());
       std::error_code error;
       if (fs::exists(file, error)) return file;
     } catch (const ImportFailure& failure) {

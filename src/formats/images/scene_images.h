@@ -35,7 +35,8 @@ private:
   int fail(const std::string& name, const std::string& why);
 
   Scene& scene_;
-  std::vector<std::filesystem::path> folders_;
+  std::vector<std::filesystem::path> folders_;          ///< the scene's and two in it, then the texture paths
+  std::filesystem::path root_;                          ///< ImportOptions'
   std::vector<std::filesystem::path>* files_read_;      ///< ImportOptions'
   std::map<std::string, int> index_of_;                 ///< by name in the scene file
   std::map<std::filesystem::path, int> index_of_file_;  ///< by place on disk

@@ -32,43 +32,94 @@ double turn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-bool is_ear(const Points& points, const std::vector<std::uint32_t>& ring, std::size_t i,
-            std::uint64_t& work) {
-  const std::size_t n = ring.size();
-  const auto a = points[ring[(i + n - 1) % n]], b = points[ring[i]], c = points[ring[(i + 1) % n]];
-  if (!(turn(a, b, c) > 0)) return false;
-  for (std::size_t k = 0; k < n; ++k) {
-    const auto p = points[ring[k]];
-    ++work;
-    if (p == a || p == b || p == c) continue;
-    if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return false;
+/// What is left of a polygon while its ears are cut off.
+class Remains {
+public:
+  explicit Remains(const Points& points)
+      : points_(points), next_(points.size()), previous_(points.size()), is_bent_in_(points.size(), false) {
+    const auto size = static_cast<std::uint32_t>(points.size());
+    for (std::uint32_t i = 0; i < size; ++i) {
+      next_[i] = (i + 1) % size;
+      previous_[i] = (i + size - 1) % size;
+    }
+    for (std::uint32_t i = 0; i < size; ++i) note_bend(i);
   }
-  return true;
-}
+
+  std::uint32_t next(std::uint32_t i) const { return next_[i]; }
+  std::uint32_t previous(std::uint32_t i) const { return previous_[i]; }
+
+  /// Whether the triangle at corner `i` lies inside and no other corner in it. It is enough to look at
+  /// corners that are not convex: if any lies in it, one of these does.
+  bool is_ear(std::uint32_t i, std::uint64_t& work) const {
+    const auto a = points_[previous_[i]], b = points_[i], c = points_[next_[i]];
+    ++work;
+    if (!(turn(a, b, c) > 0)) return false;
+    for (const std::uint32_t k : bent_in_) {
+      const auto p = points_[k];
+      ++work;
+      if (!is_bent_in_[k] || p == a || p == b || p == c) continue;
+      if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return false;
+    }
+    return true;
+  }
+
+  void cut(std::uint32_t i) {
+    const std::uint32_t before = previous_[i], after = next_[i];
+    next_[before] = after;
+    previous_[after] = before;
+    forget(i);
+    note_bend(before);
+    note_bend(after);
+    if (2 * forgotten_ <= bent_in_.size()) return;
+    std::erase_if(bent_in_, [&](std::uint32_t k) { return !is_bent_in_[k]; });
+    forgotten_ = 0;
+  }
+
+private:
+  void note_bend(std::uint32_t i) {
+    const bool convex = turn(points_[previous_[i]], points_[i], points_[next_[i]]) > 0;
+    if (convex) return forget(i);
+    if (!is_bent_in_[i]) bent_in_.push_back(i);
+    is_bent_in_[i] = true;
+  }
+  void forget(std::uint32_t i) {
+    forgotten_ += is_bent_in_[i];
+    is_bent_in_[i] = false;
+  }
+
+  const Points& points_;
+  std::vector<std::uint32_t> next_, previous_;  ///< of each corner that is left
+  std::vector<std::uint32_t> bent_in_;          ///< corners that are not convex, and forgotten ones
+  std::vector<bool> is_bent_in_;
+  std::size_t forgotten_ = 0;  ///< entries of bent_in_ that are not any more
+};
 
 }  // namespace
 
 std::vector<glm::uvec3> triangulate(std::span<const glm::vec3> corners, std::uint64_t& work) {
+  if (corners.size() < 3) return {};
+  if (corners.size() == 3) return {{0, 1, 2}};
+  const Points points = flatten(corners);
+  Remains remains(points);
   std::vector<glm::uvec3> triangles;
-  if (corners.size() < 3) return triangles;
-  std::vector<std::uint32_t> ring(corners.size());
-  for (std::size_t i = 0; i < ring.size(); ++i) ring[i] = static_cast<std::uint32_t>(i);
-  const Points points = corners.size() > 3 ? flatten(corners) : Points{};
-  std::size_t at = 1, failed = 0;
-  while (ring.size() > 3) {
-    const std::size_t n = ring.size();
-    at %= n;
+  std::uint32_t at = 1, first = 0;  // first: the smallest corner that is left
+  std::size_t left = corners.size(), failed = 0;
+  while (left > 3) {
     // A whole round without an ear: the polygon crosses itself or has no area; any corner will do.
-    if (failed < n && !is_ear(points, ring, at, work)) {
-      ++at;
+    if (failed < left && !remains.is_ear(at, work)) {
+      at = remains.next(at);
       ++failed;
       continue;
     }
-    triangles.emplace_back(ring[(at + n - 1) % n], ring[at], ring[(at + 1) % n]);
-    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(at));
+    const std::uint32_t after = remains.next(at);
+    triangles.emplace_back(remains.previous(at), at, after);
+    remains.cut(at);
+    if (at == first) first = after;
+    at = after;
+    --left;
     failed = 0;
   }
-  triangles.emplace_back(ring[0], ring[1], ring[2]);
+  triangles.emplace_back(first, remains.next(first), remains.previous(first));
   return triangles;
 }
 

@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <unordered_map>
+
+#include "formats/obj/mtl.h"
+#include "formats/obj/text_lines.h"
+
+namespace tenebra::formats {
+namespace {
+
+TextureMap map_of(const MtlMap* source, const std::string& place, SceneImages& images) {
+  TextureMap map;
+  if (source == nullptr) return map;
+  map.image = images.find(source->picture, place + ", " + source->written);
+  if (map.image < 0) return map;
+  if (source->clamp) map.wrap_u = map.wrap_v = Wrap::clamp_to_edge;
+  // -s and -o scale and move coordinates whose v points up: v' = 1 - (scale * (1 - v) + offset).
+  const glm::vec2 scale = source->scale, offset = source->offset;
+  map.transform = {glm::vec2(scale.x, 0), glm::vec2(0, scale.y), glm::vec2(offset.x, 1 - scale.y - offset.y)};
+  return map;
+}
+
+/// Whether the materials are those of MeshLab, OpenMVS and others that write Tr 1 for opaque: to the letter
+/// all of them would be invisible.
+bool transparency_means_opacity(const std::vector<MtlMaterial>& sources) {
+  return !sources.empty() && std::all_of(sources.begin(), sources.end(), [](const MtlMaterial& source) {
+    return !source.dissolve && source.transparency == 1.0f;
+  });
+}
+
+float alpha_of(const MtlMaterial& source) {
+  const float alpha = source.dissolve ? *source.dissolve : 1 - source.transparency.value_or(0);
+  return std::clamp(alpha, 0.0f, 1.0f);
+}
+
+Material read_material(const MtlMaterial& source, SceneImages& images) {
+  constexpr int diffuse_only = 1;  // one of the MTL format's illumination models
+  const std::string place = fmt::format("material '{}'", source.name);
+  Material material;
+  material.name = source.name;
+  material.base_color = source.diffuse;
+  material.emissive = source.emission;
+  material.base_color_map = map_of(source.map({"map_kd"}), place, images);
+  const MtlMap* const emissive_map = source.map({"map_ke"});
+  if (material.emissive != glm::vec3(0)) material.emissive_map = map_of(emissive_map, place, images);
+  // Without its picture the factor alone would shine from all of the surface.
+  if (emissive_map != nullptr && !material.emissive_map) material.emissive = glm::vec3(0);
+  // Ns 0 is what programs write that have no gloss; as an exponent it would shine from everywhere.
+  const float exponent = std::max(source.shininess.value_or(1), 0.0f);
+  if (source.illumination != diffuse_only && exponent > 0) material.specular = source.specular;
+  material.phong_exponent = exponent > 0 ? exponent : 1;
+  if (source.roughness || source.metallic) {
+    material.model = SurfaceModel::metallic_roughness;
+    material.roughness = std::clamp(source.roughness.value_or(1), 0.0f, 1.0f);
+    material.metallic = std::clamp(source.metallic.value_or(0), 0.0f, 1.0f);
+  }
+  material.alpha = alpha_of(source);
+  if (material.alpha < 1) material.alpha_mode = AlphaMode::blend;
+  return material;
+}
+
+/// What the materials have and nothing here uses.
+void name_unused(const std::vector<MtlMaterial>& sources, Scene& scene) {
+  std::map<std::string, std::size_t> counts;
+  for (const MtlMaterial& source : sources)
+    for (const MtlMap& map : source.maps)
+      if (map.statement != "map_kd" && map.statement != "map_ke" && counts.size() < 20)
+        ++counts[shown_word(map.written)];
+  for (const auto& [name, count] : counts) {
+    scene.warnings.push_back(
+        fmt::format("{}: found in {} material{}, where it is not used.", name, count, count == 1 ? "" : "s"));
+    scene.unused.push_back({name, count});
+  }
+}
+
+}  // namespace
+
+void add_materials(const std::vector<MtlMaterial>& sources, SceneImages& images, Scene& scene) {
+  for (const MtlMaterial& source : sources) scene.materials.push_back(read_material(source, images));
+  if (transparency_means_opacity(sources)) {
+    for (Material& material : scene.materials) material.alpha = 1, material.alpha_mode = AlphaMode::opaque;
+    scene.warnings.push_back(
+        "Every material states Tr 1, with which nothing would be seen: taken as opaque, as MeshLab writes "
+        "it.");
+  }
+  name_unused(sources, scene);
+}
+
+std::vector<int> find_materials(const std::vector<MtlMaterial>& materials,
+                                const std::vector<std::string>& names) {
+  std::unordered_map<std::string_view, int> by_written, by_name;
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    by_written.try_emplace(materials[i].written, static_cast<int>(i));
+    by_name.try_emplace(materials[i].name, static_cast<int>(i));
+  }
+  std::vector<int> found;
+  for (const std::string& name : names) {
+    const auto exact = by_written.find(name), cut = by_name.find(without_comment(name));
+    found.push_back(exact != by_written.end() ? exact->second : cut != by_name.end() ? cut->second : -1);
+  }
+  return found;
+}
+
+}  // namespace tenebra::formats
