@@ -5,8 +5,9 @@ set -euo pipefail
 cd "$(dirname "$0")"
 
 tools/setup.sh --tests
-# A first build compiles each folder's files together, which takes less time; an existing build folder keeps its setting.
-[[ -e build/CMakeCache.txt ]] && first=() || first=(-DTENEBRA_UNITY=ON)
+# A first build compiles each folder's files together and for the vector instructions of this machine, which takes less
+# time; an existing build folder keeps its settings.
+[[ -e build/CMakeCache.txt ]] && first=() || first=(-DTENEBRA_UNITY=ON -DTENEBRA_LEVELS=native)
 cmake --preset release -DTENEBRA_TESTS=ON "${first[@]}" ${CI:+-DCMAKE_COMPILE_WARNING_AS_ERROR=ON} > /dev/null
 cmake --build --preset release
 

@@ -32,7 +32,7 @@ fi
 checks=address,signed-integer-overflow,shift,bounds,float-cast-overflow,integer-divide-by-zero
 cmake -S . -B build-fuzz -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_COMPILER=clang++ -DTENEBRA_TESTS=OFF \
   -DTENEBRA_PROGRAM=OFF -DTENEBRA_FUZZ=ON -DTENEBRA_SANITIZE="$checks,fuzzer-no-link" \
-  -DTENEBRA_FEWER_LEVELS=ON -DTENEBRA_UNITY=ON -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1 -DNDEBUG" > /dev/null &&
+  -DTENEBRA_LEVELS=native -DTENEBRA_UNITY=ON -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1 -DNDEBUG" > /dev/null &&
   cmake --build build-fuzz --target "${fuzzers[@]/#/fuzz_}" -j "${JOBS:-$(nproc)}" || exit 1
 
 mkdir -p build-fuzz/found

@@ -42,7 +42,7 @@ has() {
 run_lto-odr() {
   has gcc-ar gcc && tools/setup.sh --tests &&
     cmake -S . -B build-lto -G Ninja -DCMAKE_BUILD_TYPE=Release -DTENEBRA_TESTS=ON \
-      -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" -DTENEBRA_FEWER_LEVELS=ON -DTENEBRA_UNITY=ON \
+      -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" -DTENEBRA_LEVELS=native -DTENEBRA_UNITY=ON \
       -DCMAKE_AR="$(command -v gcc-ar)" -DCMAKE_RANLIB="$(command -v gcc-ranlib)" \
       -DCMAKE_CXX_FLAGS="-flto=auto -Wodr -Werror=odr -Wlto-type-mismatch -Werror=lto-type-mismatch" > /dev/null &&
     cmake --build build-lto -j "$jobs" --target tenebra tenebra-bench &&
