@@ -64,9 +64,8 @@ void note_sizes(const std::vector<DrawnLight>& lights, const AreaLightSettings& 
                     0.01 * settings.unsized_percent * box.diagonal(), settings.unsized_percent));
   if (suns)
     notes.push_back(
-        fmt::format("directional lights have no size: {:g} degrees were taken, the sun's (--sun-size sets "
-                    "it, 0 keeps hard "
-                    "shadows)",
+        fmt::format("directional lights have no size: {:g} degrees were taken, the sun's (--light-size "
+                    "sun=DEGREES sets it, 0 keeps hard shadows)",
                     settings.unsized_sun_deg));
 }
 

@@ -102,9 +102,24 @@ TEST(BakeCommand, FailsInOneSentence) {
   says({TENEBRA_SCENES_DIR "/court.glb", "-o", out, "--what", "light", "--shadows", "soft", "--light-size",
         "1", "--memory", "soft:1"},
        "not enough memory for soft shadows");
-  says({write_dark_scene(folder), "-o", out}, "found no light");
+  says({write_dark_scene(folder), "-o", out, "--sky", "none"}, "found no light");
   const std::string mapped = write_mapped_scene(folder);
   says({mapped, "-o", mapped}, "mapped.glb");
+}
+
+TEST(BakeCommand, BakesTheLightThatPicturesOfADarkFileHave) {
+  const TemporaryFolder folder;
+  const std::string out = folder / "lit.glb";
+  const auto result = tenebra({"bake", write_dark_scene(folder), "-o", out, "--what", "light"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_NE(result.errors.find("The scene has no light; a sun"), std::string::npos) << result.errors;
+  const Scene baked = formats::import_scene(out).value();
+  EXPECT_TRUE(baked.lights.empty()) << "the sun is in the colours";
+  EXPECT_EQ(baked.cameras.size(), 1u) << "the file's";
+  float brightest = 0;
+  for (const Mesh& mesh : baked.meshes)
+    for (const glm::vec4& color : mesh.colors) brightest = std::max(brightest, color.x);
+  EXPECT_NEAR(brightest, 0.75 * std::sin(glm::radians(50.0)), 0.01) << "the sun on the floor";
 }
 
 TEST(BakeCommand, StopsInTime) {
