@@ -78,7 +78,7 @@ std::string check_gltf_schema(std::string_view json, std::vector<std::string>& w
   } catch (const Json::out_of_range&) {
     refuse("JSON: found a number beyond the range of double, expected a smaller one");
   }
-  name_unused_looks(root, warnings, unused);
+  name_unused_looks(root, unused);
   schema::check_fields(root, warnings);
   blank_unknown_accessors(root, warnings);
   replace_unknown_cameras(root, warnings);
