@@ -51,11 +51,12 @@ void main() {
   Seen seen = seen_at(id, place);
   vec3 to_eye = u_orthographic ? -normalize(u_d0) : -seen.point / max(length(seen.point), 1e-30);
   uint number = min(material_numbers[id], u_material_count - 1);
+  seen.normal = bent_normal(number, id, seen);
   Pattern p = pattern_of(number, id, seen);
   p.base *= vertex_color_of(id, seen.weights);
   Surface s = surface_of(number, p);
   float open = u_openness > 0 ? float_at(u_openness + i) : 1.0;
-  vec3 sum = open * ambient_of(seen, s, to_eye, u_around, u_brighter) + s.emissive;
+  vec3 sum = open * occlusion_of(number, p) * ambient_of(seen, s, to_eye, u_around, u_brighter) + s.emissive;
   for (int light = 0; light < u_light_count; ++light) {
     float factor = factor_of(light, i);
     if (factor > 0.0) sum += factor * tint_of(light, i) * light_of(light, seen, s, to_eye);

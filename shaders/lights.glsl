@@ -48,14 +48,18 @@ Incident incident_at(int light, vec3 point) {
 }
 
 float received(int light, Incident incident, Seen seen) {
-  if ((lights[light].kind.x & 8) != 0) return incident.fade;
+  if ((lights[light].kind.x & 8) != 0) {
+    if (seen.normal == seen.unbent) return incident.fade;
+    float unbent = dot(seen.unbent, incident.to_light), after = dot(seen.normal, incident.to_light);
+    return incident.fade * max(1.0 + (after - unbent) / max(unbent, 0.25), 0.0);
+  }
   bool above = dot(seen.before, incident.to_light) > 0.0;
   return above ? max(dot(seen.normal, incident.to_light), 0.0) * incident.fade : 0.0;
 }
 
-vec3 fresnel(vec3 at_0, float cosine) {
+vec3 fresnel(vec3 at_0, float at_90, float cosine) {
   float x = 1.0 - cosine, x2 = x * x;
-  return at_0 + x2 * x2 * x * (vec3(1.0) - at_0);
+  return at_0 + x2 * x2 * x * (vec3(at_90) - at_0);
 }
 
 float ggx_lobe(vec3 normal, vec3 to_eye, float roughness, vec3 to_light, float half_cosine, float widened_by) {
@@ -112,11 +116,11 @@ vec3 light_of(int light, Seen seen, Surface s, vec3 to_eye) {
                      ? weight * ggx_lobe(seen.normal, to_eye, s.roughness, to.xyz,
                                          clamp(dot(seen.normal, half_way), 0.0, 1.0), widened)
                      : 0.0;
-    vec3 share = fresnel(s.specular, clamp(dot(to_eye, half_way), 0.0, 1.0));
+    vec3 share = fresnel(s.specular, s.grazing, clamp(dot(to_eye, half_way), 0.0, 1.0));
     return min(color * (s.base * (vec3(1.0) - share) * weight + share * lobe), vec3(brightest));
   }
   // Phong's highlight has no cosine at the surface; irradiance contains it, so it is divided by it again.
-  float bare = by_irradiance ? incident.fade / max(dot(seen.normal, incident.to_light), 0.25) : incident.fade;
+  float bare = by_irradiance ? incident.fade / max(dot(seen.unbent, incident.to_light), 0.25) : incident.fade;
   float aligned = dot(mirrored, to.xyz);
   float highlight = aligned > 0.0 ? bare * exp2(s.exponent * log2(clamp(aligned, 1e-30, 1.0))) : 0.0;
   return min(color * (s.base * weight + s.specular * highlight), vec3(brightest));
@@ -128,6 +132,6 @@ vec3 ambient_of(Seen seen, Surface s, vec3 to_eye, vec3 around, vec3 brighter) {
   float r = s.roughness, at_eye = clamp(dot(seen.normal, to_eye), 0.0, 1.0);
   float x = 1.0 - r, y = 0.0425 - 0.0275 * r, z = 1.04 - 0.572 * r, w = 0.022 * r - 0.04;
   float edge = min(x * x, exp2(-9.28 * at_eye)) * x + y;
-  vec3 share = s.specular * (-1.04 * edge + z) + max(1.04 * edge + w, 0.0);
+  vec3 share = s.specular * (-1.04 * edge + z) + s.grazing * max(1.04 * edge + w, 0.0);
   return (vec3(1.0) - share) * s.ambient + share * (around + (1.0 - r) * brighter);
 }

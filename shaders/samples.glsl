@@ -17,7 +17,9 @@ layout(location = 7) uniform bool u_smooth_terminator;
 
 struct Seen {
   vec3 point;   // relative to the eye
-  vec3 normal;  // unit shading normal, to the eye's side
+  vec3 normal;  // unit shading normal, to the eye's side; normal maps bend it
+  vec3 unbent;  // the same before
+  vec3 face;    // unit normal of the triangle, to the eye's side
   vec3 before;  // light counts where this points to
   vec3 weights;  // of the triangle's vertices
   vec4 steps;    // what those of the second and third change by: a column further, and a row further
@@ -62,13 +64,14 @@ Seen seen_at(uint id, vec2 place) {
   seen.point = a + w.x * e1 + w.y * e2;
   float area = length(n), away = u_orthographic ? dot(n, u_d0) : dot(n, a);
   vec3 face = area > 0.0 ? n / (away > 0.0 ? -area : area) : vec3(0.0);
-  seen.normal = face;
+  seen.normal = seen.unbent = seen.face = face;
   seen.before = face;
   if (!u_has_normals) return seen;
   vec3 n0 = corner_normal(t.x), n1 = corner_normal(t.y), n2 = corner_normal(t.z);
   bool smooth_shaded = n0 != n1 || n0 != n2;
   vec3 m = smooth_shaded ? n0 + w.x * (n1 - n0) + w.y * (n2 - n0) : n0;
   if (size_of(m) > 1e-6) seen.normal = m / (dot(m, face) < 0.0 ? -length(m) : length(m));
+  seen.unbent = seen.normal;
   vec3 along = vec3(dot(n0, face), dot(n1, face), dot(n2, face));
   bvec3 no_normal = bvec3(n0 == vec3(0.0), n1 == vec3(0.0), n2 == vec3(0.0));
   bool one = (along.x > 0.0 || no_normal.x) && (along.y > 0.0 || no_normal.y) && (along.z > 0.0 || no_normal.z);

@@ -14,6 +14,7 @@
 #include "bench/common/memory_meter.h"
 #include "bench/common/scene_renderer.h"
 #include "bench/trade/trade_needs.h"
+#include "scene/material_maps.h"
 #include "stage/additions.h"
 
 namespace tenebra::bench {
@@ -90,12 +91,8 @@ Scene with_lamp(Scene scene, float intensity, std::optional<float> range_m, rend
 }
 
 Scene without_textures(Scene scene) {
-  for (Material& material : scene.materials) {
-    for (TextureMap* map :
-         {&material.base_color_map, &material.emissive_map, &material.metallic_roughness_map,
-          &material.specular_map, &material.transmission_map})
-      *map = {};
-  }
+  for (Material& material : scene.materials)
+    for (TextureMap* map : scene::texture_maps(material)) *map = {};
   return scene;
 }
 

@@ -33,14 +33,18 @@ struct Pose {
 struct DeformBuffers {
   std::vector<glm::dvec3> positions;  ///< metres
   std::vector<glm::dvec3> normals;    ///< not unit
+  std::vector<glm::dvec4> tangents;   ///< as Mesh::tangents, not unit
   std::vector<glm::dmat4> joints;     ///< one for each of Skin::joints
 };
 
 /// World-space triangles of one instant. Positions are transformed in double and rounded once to float; from
 /// here on the floats are taken as exact. Triangle order and count are the same in all frames.
 struct FrameGeometry {
-  std::vector<glm::vec3> positions;        ///< metres, world space; finite
-  std::vector<glm::vec3> normals;          ///< unit, or zero: the face normal; size of positions
+  std::vector<glm::vec3> positions;  ///< metres, world space; finite
+  std::vector<glm::vec3> normals;    ///< unit, or zero: the face normal; size of positions
+  /// Size of positions, or empty. Unit, along the surface: where the x of a normal map points to; its y along
+  /// w * cross(normal, tangent), w 1 or -1. Zero: where the first coordinate of the map grows.
+  std::vector<glm::vec4> tangents;
   std::vector<glm::uvec3> triangles;       ///< triangle id -> vertices; (0,0,0) for dropped ones
   std::vector<std::uint32_t> materials;    ///< one for each triangle
   std::vector<std::uint8_t> casts_shadow;  ///< one for each triangle, 0 or 1

@@ -70,6 +70,8 @@ struct Material {
   float phong_exponent = 1.0f;  ///< phong: of the cosine to the mirrored light
   float metallic = 0.0f;        ///< metallic_roughness: 0 to 1
   float roughness = 1.0f;       ///< as glTF's: the square root of GGX's alpha
+  glm::vec3 dielectric{0.04f};  ///< metallic_roughness: reflectance at 0 degrees where it is no metal
+  float specular_share = 1.0f;  ///< metallic_roughness: of what it reflects there at any angle, 0 to 1
   bool double_sided = true;     ///< read and kept; every triangle is drawn from both sides
 
   AlphaMode alpha_mode = AlphaMode::opaque;  ///< what `alpha` means
@@ -83,8 +85,14 @@ struct Material {
   TextureMap base_color_map;          ///< colour and alpha
   TextureMap emissive_map;            ///< colour
   TextureMap metallic_roughness_map;  ///< linear: roughness in green, metallic in blue
-  TextureMap specular_map;            ///< specular_glossiness: colour, and glossiness in alpha
+  TextureMap specular_map;            ///< colour of specular or dielectric; specular_glossiness: alpha too
+  TextureMap specular_share_map;      ///< metallic_roughness: alpha
+  TextureMap exponent_map;            ///< phong, linear: red, times the exponent
   TextureMap transmission_map;        ///< linear: red
+  TextureMap normal_map;      ///< linear: a unit normal of the surface's tangent space, 0 to 1 for -1 to 1
+  float normal_scale = 1.0f;  ///< times its first two components
+  TextureMap occlusion_map;   ///< linear: red, the share of ambient light that arrives
+  float occlusion_strength = 1.0f;  ///< 0: the map dims nothing; 1: as it says
 
   /// Whether light passes through some of it, so that it casts no opaque shadow.
   bool see_through() const { return alpha_mode == AlphaMode::blend || transmission > 0; }

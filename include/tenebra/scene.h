@@ -20,14 +20,16 @@ namespace tenebra {
 struct MorphTarget {
   std::vector<glm::vec3> positions;  ///< size of Mesh::positions, or empty
   std::vector<glm::vec3> normals;    ///< size of Mesh::normals, or empty
+  std::vector<glm::vec3> tangents;   ///< size of Mesh::tangents, or empty
 };
 
 /// Triangles in the space of their node. All arrays of vertices have the size of `positions` or are empty.
 struct Mesh {
-  std::string name;                      ///< glTF or OBJ name; may be empty
-  std::string source;                    ///< where the file has it: "city2.aff:69", without the folder
-  std::vector<glm::vec3> positions;      ///< metres, in the space of the node
-  std::vector<glm::vec3> normals;        ///< unit; empty: the face normal
+  std::string name;                  ///< glTF or OBJ name; may be empty
+  std::string source;                ///< where the file has it: "city2.aff:69", without the folder
+  std::vector<glm::vec3> positions;  ///< metres, in the space of the node
+  std::vector<glm::vec3> normals;    ///< unit; empty: the face normal
+  std::vector<glm::vec4> tangents;   ///< where a normal map's x points to; w: side of its y; 0: FrameGeometry
   std::vector<glm::uvec3> triangles;     ///< counter-clockwise seen from the front; indices in range
   std::vector<std::uint32_t> materials;  ///< one for each triangle, an index into Scene::materials
 
@@ -162,7 +164,7 @@ struct Scene {
   glm::vec3 background{0.0f};           ///< colour where nothing is seen
   glm::vec3 ambient_light{0.1f};        ///< times the materials' ambient; formats that state one set it
   std::vector<std::string> extensions;  ///< that the file says it uses (glTF)
-  std::vector<UnusedContent> unused;    ///< each has a warning too
+  std::vector<UnusedContent> unused;    ///< no warnings: `info` has one line for all
   std::vector<std::string> warnings;    ///< what was skipped, guessed or added at import, one sentence each
 };
 

@@ -6,6 +6,7 @@
 #include "bake/map_layout.h"
 #include "base/fail.h"
 #include "parallel/parallel.h"
+#include "scene/material_maps.h"
 
 namespace tenebra::bake {
 namespace {
@@ -15,10 +16,11 @@ using glm::dvec3;
 /// Calls use(list) for every list of a mesh that has a value for each vertex.
 template <class Use>
 void each_vertex_list(Mesh& mesh, const Use& use) {
-  use(mesh.positions), use(mesh.normals), use(mesh.colors);
+  use(mesh.positions), use(mesh.normals), use(mesh.tangents), use(mesh.colors);
   for (auto& set : mesh.texture_coordinates) use(set);
   use(mesh.joints), use(mesh.weights), use(mesh.more_joints), use(mesh.more_weights);
-  for (MorphTarget& target : mesh.morph_targets) use(target.positions), use(target.normals);
+  for (MorphTarget& target : mesh.morph_targets)
+    use(target.positions), use(target.normals), use(target.tangents);
   for (Mesh::Shape& shape : mesh.shapes) use(shape.positions), use(shape.normals);
 }
 
@@ -130,9 +132,7 @@ bool meshes_overlap(const ScenePlaces& places) {
 }
 
 bool looks_at_second_set(const Material& material) {
-  for (const TextureMap* map :
-       {&material.base_color_map, &material.emissive_map, &material.metallic_roughness_map,
-        &material.specular_map, &material.transmission_map})
+  for (const TextureMap* map : scene::texture_maps(material))
     if (*map && map->uv_set == 1) return true;
   return false;
 }

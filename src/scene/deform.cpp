@@ -8,6 +8,10 @@ namespace {
 using Floats = std::vector<glm::vec3>;
 using Doubles = std::vector<glm::dvec3>;
 
+void widen(const std::vector<glm::vec4>& from, std::vector<glm::dvec4>& out) {
+  out.assign(from.begin(), from.end());
+}
+
 void widen(const Floats& from, Doubles& out) {
   out.assign(from.begin(), from.end());
 }
@@ -34,21 +38,28 @@ void evaluate_shapes(const std::vector<Mesh::Shape>& shapes, double time_s, Defo
   mix(a.normals, later->normals, u, out.normals);
 }
 
-void add(const Floats& displacements, double weight, Doubles& out) {
+template <class Vector>
+void add(const Floats& displacements, double weight, std::vector<Vector>& out) {
   const std::size_t count = std::min(displacements.size(), out.size());
-  for (std::size_t i = 0; i < count; ++i) out[i] += weight * glm::dvec3(displacements[i]);
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::dvec3 step = weight * glm::dvec3(displacements[i]);
+    for (int c = 0; c < 3; ++c) out[i][c] += step[c];
+  }
 }
 
 }  // namespace
 
 void deform_mesh(const Mesh& mesh, std::span<const double> weights, double time_s, DeformBuffers& out) {
+  out.tangents.clear();
   if (!mesh.shapes.empty()) return evaluate_shapes(mesh.shapes, time_s, out);
   widen(mesh.positions, out.positions);
   widen(mesh.normals, out.normals);
+  widen(mesh.tangents, out.tangents);
   for (std::size_t k = 0; k < mesh.morph_targets.size(); ++k) {
     if (weights[k] == 0.0) continue;
     add(mesh.morph_targets[k].positions, weights[k], out.positions);
     add(mesh.morph_targets[k].normals, weights[k], out.normals);
+    add(mesh.morph_targets[k].tangents, weights[k], out.tangents);
   }
 }
 

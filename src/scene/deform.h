@@ -12,7 +12,8 @@ inline bool deforms(const Mesh& mesh) {
   return !mesh.shapes.empty() || !mesh.morph_targets.empty();
 }
 
-/// Fills out.positions and out.normals (empty if the mesh has none). `weights`: one per morph target.
+/// Fills out.positions, out.normals and out.tangents (empty if the mesh has none). `weights`: one per morph
+/// target.
 void deform_mesh(const Mesh& mesh, std::span<const double> weights, double time_s, DeformBuffers& out);
 
 /// Fills out.joints: each takes a vertex at rest to world space.

@@ -45,6 +45,13 @@ glm::vec3 unit_or_zero(const Vector& n) {
   return glm::vec3(n / std::sqrt(square));
 }
 
+/// A tangent under `m`; a mirror turns the cross product of two directions around.
+template <class Vector>
+glm::vec4 tangent_under(const glm::dmat3& m, const Vector& tangent) {
+  const double side = tangent.w < 0 ? -1.0 : 1.0;
+  return {unit_or_zero(m * glm::dvec3(tangent)), static_cast<float>(mirrors(m) ? -side : side)};
+}
+
 /// One mesh at one node: where its part of the frame's arrays begins, and what places its vertices.
 struct Instance {
   const Mesh& mesh;
@@ -56,9 +63,10 @@ struct Instance {
 };
 
 /// Transforms a mesh's vertices into the frame; returns how many are out of range.
-template <class Vector>
+template <class Vector, class Tangent>
 std::size_t place_rigid(const Instance& instance, const std::vector<Vector>& positions,
-                        const std::vector<Vector>& normals, FrameGeometry& out) {
+                        const std::vector<Vector>& normals, const std::vector<Tangent>& tangents,
+                        FrameGeometry& out) {
   const glm::dmat3 linear(instance.to_world);
   const glm::dvec3 origin(instance.to_world[3]);
   std::size_t bad = 0;
@@ -70,18 +78,23 @@ std::size_t place_rigid(const Instance& instance, const std::vector<Vector>& pos
   for (std::size_t v = 0; v < normals.size(); ++v) {
     out.normals[instance.first_vertex + v] = unit_or_zero(turn * glm::vec3(normals[v]));
   }
+  for (std::size_t v = 0; v < tangents.size(); ++v)
+    out.tangents[instance.first_vertex + v] = tangent_under(linear, tangents[v]);
   return bad;
 }
 
-template <class Vector>
+template <class Vector, class Tangent>
 std::size_t place_skinned(const Instance& instance, const std::vector<Vector>& positions,
-                          const std::vector<Vector>& normals, FrameGeometry& out) {
+                          const std::vector<Vector>& normals, const std::vector<Tangent>& tangents,
+                          FrameGeometry& out) {
   const Mesh& mesh = instance.mesh;
   std::size_t bad = 0;
   for (std::size_t v = 0; v < positions.size(); ++v) {
     const glm::dmat4 blend = scene::blend_joints(mesh, v, out.deformed);
     const glm::dvec3 p(blend * glm::dvec4(glm::dvec3(positions[v]), 1.0));
     bad += !store_position(p, out.positions[instance.first_vertex + v]);
+    if (!tangents.empty())
+      out.tangents[instance.first_vertex + v] = tangent_under(glm::dmat3(blend), tangents[v]);
     if (normals.empty()) continue;
     const glm::dvec3 normal = normal_matrix(glm::dmat3(blend)) * glm::dvec3(normals[v]);
     out.normals[instance.first_vertex + v] = unit_or_zero(normal);
@@ -89,15 +102,20 @@ std::size_t place_skinned(const Instance& instance, const std::vector<Vector>& p
   return bad;
 }
 
-template <class Vector>
+template <class Vector, class Tangent>
 std::size_t place(const Instance& instance, const std::vector<Vector>& positions,
-                  const std::vector<Vector>& normals, FrameGeometry& out) {
+                  const std::vector<Vector>& normals, const std::vector<Tangent>& tangents,
+                  FrameGeometry& out) {
   if (normals.empty()) {
     const auto first = out.normals.begin() + static_cast<std::ptrdiff_t>(instance.first_vertex);
     std::fill_n(first, positions.size(), glm::vec3(0.0f));
   }
-  return instance.skin ? place_skinned(instance, positions, normals, out)
-                       : place_rigid(instance, positions, normals, out);
+  if (tangents.empty() && !out.tangents.empty()) {
+    const auto first = out.tangents.begin() + static_cast<std::ptrdiff_t>(instance.first_vertex);
+    std::fill_n(first, positions.size(), glm::vec4(0.0f));
+  }
+  return instance.skin ? place_skinned(instance, positions, normals, tangents, out)
+                       : place_rigid(instance, positions, normals, tangents, out);
 }
 
 bool is_dropped(const glm::uvec3& triangle, const FrameGeometry& out) {
@@ -148,9 +166,9 @@ void write_instance(const Scene& scene, const Instance& instance, std::span<cons
   std::size_t bad = 0;
   if (scene::deforms(instance.mesh)) {
     scene::deform_mesh(instance.mesh, weights, time_s, out.deformed);
-    bad = place(instance, out.deformed.positions, out.deformed.normals, out);
+    bad = place(instance, out.deformed.positions, out.deformed.normals, out.deformed.tangents, out);
   } else {
-    bad = place(instance, instance.mesh.positions, instance.mesh.normals, out);
+    bad = place(instance, instance.mesh.positions, instance.mesh.normals, instance.mesh.tangents, out);
   }
   const glm::dmat4& decisive = instance.skin ? out.deformed.joints.front() : instance.to_world;
   write_triangles(instance, mirrors(glm::dmat3(decisive)), bad > 0, out);
@@ -161,14 +179,17 @@ void write_instance(const Scene& scene, const Instance& instance, std::span<cons
 void resize(const Scene& scene, FrameGeometry& out) {
   std::size_t vertices = 0;
   std::size_t triangles = 0;
+  bool any_tangents = false;
   for (const Node& node : scene.nodes) {
     if (node.mesh < 0) continue;
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
     vertices += mesh.positions.size();
     triangles += mesh.triangles.size();
+    any_tangents = any_tangents || !mesh.tangents.empty();
   }
   out.positions.resize(vertices);
   out.normals.resize(vertices);
+  out.tangents.resize(any_tangents ? vertices : 0);
   out.triangles.resize(triangles);
   out.materials.resize(triangles);
   out.casts_shadow.resize(triangles);

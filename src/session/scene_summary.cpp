@@ -1,5 +1,9 @@
 #include "session/scene_summary.h"
 
+#include <algorithm>
+
+#include "scene/material_maps.h"
+
 namespace tenebra::session {
 namespace {
 
@@ -10,8 +14,9 @@ void extend(std::optional<Bounds>& bounds, glm::vec3 point) {
 }
 
 void count(const Material& material, SurfaceCounts& counts) {
-  counts.textured += material.base_color_map || material.emissive_map || material.metallic_roughness_map ||
-                     material.specular_map || material.transmission_map;
+  const auto maps = scene::texture_maps(material);
+  counts.textured += std::any_of(maps.begin(), maps.end(), [](const TextureMap* map) { return bool{*map}; });
+  counts.normal_mapped += static_cast<bool>(material.normal_map);
   const bool specular_model =
       material.model == SurfaceModel::phong || material.model == SurfaceModel::specular_glossiness;
   counts.specular += specular_model && material.specular != glm::vec3(0);

@@ -18,6 +18,7 @@ struct Bounds {
 /// Triangles by what their materials hold; one may count several times.
 struct SurfaceCounts {
   std::size_t textured = 0;  ///< any picture
+  std::size_t normal_mapped = 0;
   std::size_t specular = 0;  ///< Phong's or specular-glossiness
   std::size_t metallic = 0;
   std::size_t emissive = 0;

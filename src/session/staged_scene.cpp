@@ -13,6 +13,7 @@
 #include "stage/default_light.h"
 #include "stage/left_out.h"
 #include "stage/looks.h"
+#include "stage/tangents.h"
 
 namespace tenebra::session {
 namespace {
@@ -148,6 +149,7 @@ Expected<StagedScene> stage_scene(const SceneSettings& settings, Staging staging
   number_lights(scene);
   stage::cut_out_masks(scene, {.most_added = static_cast<std::size_t>(settings.cutout_limit)});
   if (settings.plain) stage::make_plain(scene);
+  stage::add_tangents(scene);
   if (!settings.cast_all) stage::leave_out_covers(scene);
   if (auto checked = stage::check_edits(settings.edits, scene); !checked)
     return tl::unexpected(checked.error());

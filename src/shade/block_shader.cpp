@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "shade/corner_tangents.h"
+
 namespace tenebra::shade {
 namespace {
 
@@ -45,9 +47,14 @@ void BlockShader::locate_run(const TriangleSetup& setup, std::size_t material, c
   const SurfaceTable& surfaces = frame_.subject.surfaces;
   if (stretch_.count == 0) stretch_ = {material, first, 0};
   stretch_.count += count;
-  texture::TexturePlaces* places = places_;
-  for (const CoordinateRule& rule : surfaces.maps(material).rules)
-    frame_.code.locate(setup, surfaces.coordinates(rule, corners), block_, first, count, *places++);
+  const SurfaceMaps& maps = surfaces.maps(material);
+  for (std::size_t i = 0; i < maps.rules.size(); ++i) {
+    const CoordinatePlane plane = surfaces.coordinates(maps.rules[i], corners);
+    frame_.code.locate(setup, plane, block_, first, count, places_[i]);
+    if (!maps.normal || static_cast<std::size_t>(maps.normal.coordinates) != i) continue;
+    const auto tangents = corner_tangents(frame_.subject.geometry, setup, corners, plane);
+    frame_.code.blend(tangents.data(), block_, first, count, tangents_);
+  }
   if (const auto& colors = surfaces.colors(); !colors.empty()) {
     const glm::vec4 of_corners[3] = {colors[corners.x], colors[corners.y], colors[corners.z]};
     frame_.code.blend(of_corners, block_, first, count, vertices_);
@@ -81,10 +88,14 @@ void BlockShader::finish_stretch() {
   if (!surfaces.colors().empty()) in.vertices = &vertices_;
   in.base = sampled(maps.base, m.base_color_map, base_values_);
   in.emissive = sampled(maps.emissive, m.emissive_map, emissive_values_);
-  in.metallic_roughness = sampled(maps.metallic_roughness, m.metallic_roughness_map, gloss_values_);
-  in.specular = sampled(maps.specular, m.specular_map, gloss_values_);  // a material has one or the other
+  in.gloss = sampled(maps.gloss, gloss_map(m), gloss_values_);
+  in.specular = sampled(maps.specular, m.specular_map, specular_values_);
+  in.specular_share = sampled(maps.specular_share, m.specular_share_map, share_values_);
   in.transmission = sampled(maps.transmission, m.transmission_map, passing_values_);
+  in.occlusion = sampled(maps.occlusion, m.occlusion_map, occlusion_values_);
   frame_.code.resolve(m, in, frame_.ambient_light, stretch_.first, stretch_.count, block_);
+  if (const auto* normals = sampled(maps.normal, m.normal_map, normal_values_))
+    frame_.code.bend(m.normal_scale, *normals, tangents_, stretch_.first, stretch_.count, block_);
   stretch_.count = 0;
 }
 
@@ -116,6 +127,8 @@ void BlockShader::place_run(std::uint32_t id, const float* x, const float* y, st
 void BlockShader::place(std::span<const std::uint32_t> ids, const float* x, const float* y) {
   block_.count = ids.size();
   block_.keeps_gloss = frame_.subject.surfaces.any_glossy();
+  block_.keeps_unbent = frame_.subject.surfaces.any_bent();
+  block_.keeps_occlusion = frame_.subject.surfaces.any_occluded();
   block_.glossy = false;
   anything_seen_ = false;
   for (std::size_t i = 0, end = 0; i < ids.size(); i = end) {

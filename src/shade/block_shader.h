@@ -63,10 +63,12 @@ private:
   struct Stretch {
     std::size_t material = 0, first = 0, count = 0;  // count 0: none
   };
-  static constexpr std::size_t most_rules = 5;  // of SurfaceMaps
+  static constexpr std::size_t most_rules = 8;  // of SurfaceMaps
   Stretch stretch_;
   texture::TexturePlaces places_[most_rules] = {};
   texture::TextureValues vertices_{}, base_values_{}, emissive_values_{}, gloss_values_{}, passing_values_{};
+  texture::TextureValues specular_values_{}, share_values_{}, occlusion_values_{}, normal_values_{},
+      tangents_{};
   SampleBlock::Channel before_[3] = {};  ///< colours without a coloured light
 };
 

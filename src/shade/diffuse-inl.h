@@ -64,11 +64,26 @@ SIMD_INLINE Incident incident_light(const LightTerms& terms, const SampleBlock& 
   return {to_light, select(lt(zero, distance), fade_of(terms, to_light, distance), zero)};
 }
 
+/// The normal that irradiance was found with.
+SIMD_INLINE Vector16 unbent_normal(const SampleBlock& b, std::size_t i) {
+  return load3(b.keeps_unbent ? b.unbent : b.normal, i);
+}
+
+/// What bending the normal makes of irradiance: as much more or less as of light from `to_light`; 1 where
+/// nothing bends. Where that light grazes the unbent surface, it counts as one at a cosine of 0.25.
+SIMD_INLINE Float16 turned_by_bend(const Vector16& to_light, const SampleBlock& b, std::size_t i) {
+  const Float16 before = dot_unfused(unbent_normal(b, i), to_light),
+                after = dot_unfused(load3(b.normal, i), to_light);
+  const Float16 change = (after - before) / max(before, broadcast<Float16>(0.25f));
+  return max(broadcast<Float16>(1.0f) + change, broadcast<Float16>(0.0f));
+}
+
 /// How much of the arriving light a surface receives: fade times the cosine at the surface; zero where the
 /// light is not before it.
 SIMD_INLINE Float16 received(const LightTerms& terms, const Incident& incident, const SampleBlock& b,
                              std::size_t i) {
-  if (terms.by_irradiance) return incident.fade;
+  if (terms.by_irradiance)
+    return b.keeps_unbent ? incident.fade * turned_by_bend(incident.to_light, b, i) : incident.fade;
   const Float16 zero = broadcast<Float16>(0.0f);
   const Float16 cosine = max(dot_unfused(load3(b.normal, i), incident.to_light), zero);
   const Float16 above = dot_unfused(load3(b.before, i), incident.to_light);

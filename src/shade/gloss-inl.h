@@ -18,7 +18,7 @@ using namespace simd::HWY_NAMESPACE;
 /// What gloss needs of a sample.
 struct Gloss {
   Vector16 normal, to_eye, specular;
-  Float16 roughness, exponent;
+  Float16 roughness, exponent, grazing;
   Mask<float, 16> ggx;
 };
 SIMD_INLINE Gloss gloss_of(const SampleBlock& b, std::size_t i) {
@@ -28,6 +28,7 @@ SIMD_INLINE Gloss gloss_of(const SampleBlock& b, std::size_t i) {
           load3(b.specular, i),
           max(roughness, number(0.0f)),
           load<Float16>(b.exponent + i),
+          load<Float16>(b.grazing + i),
           le(number(0.0f), roughness)};
 }
 SIMD_INLINE Vector16 mirrored(const Gloss& g) {
@@ -78,10 +79,10 @@ SIMD_INLINE Towards towards_polygon(const LightTerms& terms, const Gloss& g, con
 }
 
 /// Share of light that is mirrored at angle cosine `cosine` (Schlick).
-SIMD_INLINE Vector16 fresnel(const Vector16& at_0, Float16 cosine) {
+SIMD_INLINE Vector16 fresnel(const Gloss& g, Float16 cosine) {
   const Float16 x = number(1.0f) - cosine, x2 = x * x, rise = x2 * x2 * x;
-  const Vector16 one = broadcast16(glm::vec3(1.0f));
-  return at_0 + rise * (one - at_0);
+  const Vector16 at_90{g.grazing, g.grazing, g.grazing};
+  return g.specular + rise * (at_90 - g.specular);
 }
 
 /// pi * D * V of GGX, with the height-correlated shadowing of Smith.
@@ -109,16 +110,17 @@ SIMD_INLINE Vector16 glossy_light(const LightTerms& terms, const Incident& incid
   const Float16 weight = received(terms, incident, b, i);
   const Vector16 half = unit(to.direction + g.to_eye);
   const Float16 half_cosine = clamped(dot_unfused(g.normal, half), 0.0f, 1.0f);
-  const Vector16 share = fresnel(g.specular, clamped(dot_unfused(g.to_eye, half), 0.0f, 1.0f));
+  const Vector16 share = fresnel(g, clamped(dot_unfused(g.to_eye, half), 0.0f, 1.0f));
   const Float16 widened = number(0.5f * terms.radius_m) / max(to.distance, number(1e-30f));
   const Float16 cosine = dot_unfused(g.normal, to.direction);
   const Float16 lobe =
       select(lt(zero, cosine), weight * ggx_lobe(g, to.direction, half_cosine, widened), zero);
 
   // Phong's highlight has no cosine at the surface; irradiance contains it, so it is divided by it again.
-  const Float16 bare = terms.by_irradiance
-                           ? incident.fade / max(dot_unfused(g.normal, incident.to_light), number(0.25f))
-                           : incident.fade;
+  const Float16 bare =
+      terms.by_irradiance
+          ? incident.fade / max(dot_unfused(unbent_normal(b, i), incident.to_light), number(0.25f))
+          : incident.fade;
   const Float16 aligned = dot_unfused(mirrored(g), to.direction);
   const Float16 power = exp2_of(g.exponent * log2_of(clamped(aligned, 1e-30f, 1.0f)));
   const Float16 highlight = select(lt(zero, aligned) & lt(zero, weight), bare * power, zero);
@@ -143,7 +145,8 @@ SIMD_INLINE Vector16 mirrored_share(const Gloss& g) {
   const Float16 x = one - r, y = number(0.0425f) - number(0.0275f) * r,
                 z = number(1.04f) - number(0.572f) * r, w = number(0.022f) * r - number(0.04f);
   const Float16 edge = min(x * x, exp2_of(number(-9.28f) * at_eye)) * x + y;
-  const Float16 scale = number(-1.04f) * edge + z, offset = max(number(1.04f) * edge + w, number(0.0f));
+  const Float16 scale = number(-1.04f) * edge + z,
+                offset = max(number(1.04f) * edge + w, number(0.0f)) * g.grazing;
   return {g.specular.x * scale + offset, g.specular.y * scale + offset, g.specular.z * scale + offset};
 }
 

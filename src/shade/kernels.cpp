@@ -9,6 +9,7 @@ static_assert(std::endian::native == std::endian::little);
 #define HWY_TARGET_INCLUDE "shade/kernels.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h
+#include "shade/bend-inl.h"
 #include "shade/display-inl.h"
 #include "shade/gloss-inl.h"
 #include "shade/panorama-inl.h"
@@ -82,6 +83,7 @@ void place(const TriangleSetup& setup, bool smooth_terminator, const float* x, c
     const Vector16 normal = setup.smooth ? normal_at(setup, w) : broadcast16(setup.normal);
     store3(by_normal ? normal : broadcast16(setup.face), b.before, i);
     store3(normal, b.normal, i);
+    if (b.keeps_unbent) store3(normal, b.unbent, i);
   }
 }
 
@@ -91,10 +93,12 @@ void cover(const Surface& surface, std::size_t first, std::size_t count, SampleB
     store3(broadcast16(surface.ambient), b.ambient, i);
     store3(broadcast16(surface.emissive), b.emissive, i);
     store(broadcast<Float16>(surface.alpha), b.alpha + i);
+    if (b.keeps_occlusion) store(broadcast<Float16>(1.0f), b.occlusion + i);
     if (!b.keeps_gloss) continue;
     store3(broadcast16(surface.specular), b.specular, i);
     store(broadcast<Float16>(surface.roughness), b.roughness + i);
     store(broadcast<Float16>(surface.exponent), b.exponent + i);
+    store(broadcast<Float16>(surface.grazing), b.grazing + i);
   }
 }
 
@@ -135,6 +139,7 @@ void surround(const Panorama& irradiance, const Panorama& radiance, SampleBlock&
 void begin(const float* openness, SampleBlock& b) {
   for (std::size_t i = 0; i < b.count; i += 16) {
     Vector16 ambient = b.glossy ? glossy_ambient(b, i) : load3(b.ambient, i);
+    if (b.keeps_occlusion) ambient = load<Float16>(b.occlusion + i) * ambient;
     if (openness != nullptr) ambient = load<Float16>(openness + i) * ambient;
     store3(ambient + load3(b.emissive, i), b.color, i);
   }
@@ -185,8 +190,8 @@ void encode_block(const LevelTable& table, const Display& display, const SampleB
 }  // namespace
 
 Kernels kernels() {
-  return {place,   cover, locate,   blend, resolve, nullptr, look,
-          reflect, see,   surround, begin, light,   show,    encode_block};
+  return {place,   cover, locate,   blend, resolve, bend, nullptr,     look,
+          reflect, see,   surround, begin, light,   show, encode_block};
 }
 
 }  // namespace tenebra::shade::HWY_NAMESPACE

@@ -20,9 +20,11 @@ struct SurfaceInputs {
   const texture::TextureValues* vertices = nullptr;
   const texture::TextureValues* base = nullptr;
   const texture::TextureValues* emissive = nullptr;
-  const texture::TextureValues* metallic_roughness = nullptr;
+  const texture::TextureValues* gloss = nullptr;
   const texture::TextureValues* specular = nullptr;
+  const texture::TextureValues* specular_share = nullptr;
   const texture::TextureValues* transmission = nullptr;
+  const texture::TextureValues* occlusion = nullptr;
 };
 
 /// Code for one instruction set; all give the same bits.
@@ -37,12 +39,15 @@ struct Kernels {
   /// Places on textures, of placed samples of one triangle.
   void (*locate)(const TriangleSetup& setup, const CoordinatePlane& plane, const SampleBlock& block,
                  std::size_t first, std::size_t count, texture::TexturePlaces& places) = nullptr;
-  /// Between the colours of a triangle's vertices.
+  /// Between four values of each of a triangle's vertices.
   void (*blend)(const glm::vec4* colors, const SampleBlock& block, std::size_t first, std::size_t count,
                 texture::TextureValues& out) = nullptr;
   /// The surface of a material with its textures.
   void (*resolve)(const Material& material, const SurfaceInputs& inputs, const glm::vec3& ambient_light,
                   std::size_t first, std::size_t count, SampleBlock& block) = nullptr;
+  /// Bends the shading normals by a normal map. `tangents`: as corner_tangents() has them.
+  void (*bend)(float scale, const texture::TextureValues& map, const texture::TextureValues& tangents,
+               std::size_t first, std::size_t count, SampleBlock& block) = nullptr;
   texture::Sampler sample = nullptr;
 
   /// Fills to_eye; `towards`: the same unit direction for all (orthographic views), or null.
@@ -56,8 +61,8 @@ struct Kernels {
               std::size_t first, std::size_t count, SampleBlock::Channel (&out)[3]) = nullptr;
   /// Ambient and reflected light from `irradiance` and `radiance` all around.
   void (*surround)(const Panorama& irradiance, const Panorama& radiance, SampleBlock& block) = nullptr;
-  /// color = ambient * openness + emissive; `openness`: one for each sample, or null: all open. Glossy
-  /// samples also mirror `reflected`, times their openness.
+  /// color = ambient * occlusion * openness + emissive; `openness`: one for each sample, or null: all open.
+  /// Glossy samples also mirror `reflected`, times their openness.
   void (*begin)(const float* openness, SampleBlock& block) = nullptr;
   /// Adds a light; `factor`: one for each sample, or null: 1.
   void (*light)(const LightTerms& terms, const float* factor, SampleBlock& block) = nullptr;

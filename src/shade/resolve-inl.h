@@ -58,28 +58,31 @@ SIMD_INLINE Float16 channel_of(const texture::TextureValues* values, int c, std:
 /// A surface at sixteen samples.
 struct Surfaces {
   Vector16 base, ambient, emissive, specular;
-  Float16 roughness, exponent;
+  Float16 roughness, exponent, grazing;
 };
 
 /// `base`: colour times `pattern`, which has the textures' share of it.
 SIMD_INLINE Surfaces resolved(const Material& m, const SurfaceInputs& in, const Vector16& base,
                               const Vector16& pattern, const glm::vec3& ambient_light, std::size_t i) {
-  constexpr float dielectric = 0.04f;  // reflectance at 0 degrees of glTF's surfaces that are no metal
   const Float16 zero = number(0.0f), one = number(1.0f);
   const Vector16 none{zero, zero, zero};
-  Surfaces s{base, none, times(broadcast16(m.emissive), color_of(in.emissive, i)), none, number(-1.0f), one};
+  Surfaces s{base, none, times(broadcast16(m.emissive), color_of(in.emissive, i)), none, number(-1.0f),
+             one,  one};
   switch (m.model) {
     case SurfaceModel::phong:
       s.specular = times(broadcast16(m.specular), color_of(in.specular, i));
-      s.exponent = number(std::max(m.phong_exponent, 0.0f));
+      s.exponent = number(std::max(m.phong_exponent, 0.0f)) * channel_of(in.gloss, 0, i);
       break;
     case SurfaceModel::metallic_roughness: {
-      const Float16 metallic = number(m.metallic) * channel_of(in.metallic_roughness, 2, i);
+      const Float16 metallic = number(m.metallic) * channel_of(in.gloss, 2, i);
       const Float16 rest = one - metallic;
-      s.specular = broadcast16(glm::vec3(dielectric));
+      const Float16 share = number(m.specular_share) * channel_of(in.specular_share, 3, i);
+      const Vector16 at_0 = times(broadcast16(m.dielectric), color_of(in.specular, i));
+      s.specular = share * Vector16{min(at_0.x, one), min(at_0.y, one), min(at_0.z, one)};
       s.specular = rest * s.specular + metallic * base;
+      s.grazing = one - rest * (one - share);
       s.base = rest * base;
-      s.roughness = clamped(number(m.roughness) * channel_of(in.metallic_roughness, 1, i), 0.0f, 1.0f);
+      s.roughness = clamped(number(m.roughness) * channel_of(in.gloss, 1, i), 0.0f, 1.0f);
       break;
     }
     case SurfaceModel::specular_glossiness: {
@@ -118,10 +121,14 @@ inline void resolve(const Material& m, const SurfaceInputs& in, const glm::vec3&
     store3(s.emissive, b.emissive, i);
     const Float16 alpha = number(m.alpha) * (channel_of(in.vertices, 3, i) * channel_of(in.base, 3, i));
     store(m.alpha_mode == AlphaMode::opaque ? number(1.0f) : alpha, b.alpha + i);
+    if (b.keeps_occlusion)
+      store(number(1.0f) + number(m.occlusion_strength) * (channel_of(in.occlusion, 0, i) - number(1.0f)),
+            b.occlusion + i);
     if (!b.keeps_gloss) continue;
     store3(s.specular, b.specular, i);
     store(s.roughness, b.roughness + i);
     store(s.exponent, b.exponent + i);
+    store(s.grazing, b.grazing + i);
   }
 }
 

@@ -23,7 +23,7 @@ Surface plain_surface(const Kernels& code, const Material& material) {
   code.resolve(material, {}, glm::vec3(1.0f), 0, 1, *block);
   const auto at = [](const SampleBlock::Channel(&of)[3]) { return glm::vec3(of[0][0], of[1][0], of[2][0]); };
   return {at(block->base),     at(block->ambient),  at(block->emissive), block->alpha[0],
-          at(block->specular), block->roughness[0], block->exponent[0]};
+          at(block->specular), block->roughness[0], block->exponent[0],  block->grazing[0]};
 }
 
 /// What identifies a texture: pictures are kept once for each use of their values, with what stands beyond
@@ -106,12 +106,20 @@ void SurfaceTable::add_textures(const Scene& scene) {
     SurfaceMaps& maps = maps_[i];
     maps.base = use_of(m.base_color_map, color, maps);
     if (m.emissive != glm::vec3(0.0f)) maps.emissive = use_of(m.emissive_map, color, maps);
-    if (m.model == SurfaceModel::metallic_roughness && (m.metallic != 0 || m.roughness != 0))
-      maps.metallic_roughness = use_of(m.metallic_roughness_map, Content::data, maps);
-    if (m.model == SurfaceModel::specular_glossiness)
-      maps.specular = use_of(m.specular_map, curved ? Content::srgb_beside_data : Content::data, maps);
+    const Content beside_data = curved ? Content::srgb_beside_data : Content::data;
+    const bool metallic = m.model == SurfaceModel::metallic_roughness;
+    if ((metallic && (m.metallic != 0 || m.roughness != 0)) || m.model == SurfaceModel::phong)
+      maps.gloss = use_of(gloss_map(m), Content::data, maps);
+    if (m.model != SurfaceModel::unlit) {
+      maps.specular = use_of(m.specular_map, beside_data, maps);
+      maps.normal = use_of(m.normal_map, Content::normal, maps);
+      if (m.occlusion_strength != 0) maps.occlusion = use_of(m.occlusion_map, Content::data, maps);
+    }
+    if (metallic) maps.specular_share = use_of(m.specular_share_map, beside_data, maps);
     if (m.tinted_transmission && m.transmission > 0)
       maps.transmission = use_of(m.transmission_map, Content::data, maps);
+    any_bent_ = any_bent_ || maps.normal;
+    any_occluded_ = any_occluded_ || maps.occlusion;
   }
   std::vector<std::optional<texture::MipTexture>> made(wanted.size());
   parallel::parallel_in_order(static_cast<int>(wanted.size()), [&](int i) {

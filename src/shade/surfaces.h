@@ -22,6 +22,7 @@ struct Surface {
   glm::vec3 specular{0.0f};  ///< Phong: reflectance; GGX: reflectance at 0 degrees
   float roughness = -1;      ///< GGX: as glTF's, the square root of its alpha; negative: Phong
   float exponent = 1;        ///< Phong
+  float grazing = 1;         ///< GGX: reflectance at 90 degrees
 
   bool is_glossy() const { return roughness >= 0 || specular != glm::vec3(0.0f); }
 };
@@ -40,10 +41,15 @@ struct CoordinateRule {
   bool moves = false;      ///< the transform is not the identity
 };
 struct SurfaceMaps {
-  MapUse base, emissive, metallic_roughness, specular, transmission;
-  std::vector<CoordinateRule> rules;  ///< at most five
+  MapUse base, emissive, gloss, specular, specular_share, transmission, normal, occlusion;
+  std::vector<CoordinateRule> rules;  ///< at most eight
   bool any() const { return !rules.empty(); }
 };
+
+/// What SurfaceMaps::gloss reads.
+inline const TextureMap& gloss_map(const Material& material) {
+  return material.model == SurfaceModel::phong ? material.exponent_map : material.metallic_roughness_map;
+}
 
 /// Coordinates over a triangle: at its first vertex, and their change towards each of the others.
 struct CoordinatePlane {
@@ -75,6 +81,8 @@ public:
   }
   /// Whether some material reflects more than diffusely.
   bool any_glossy() const { return any_glossy_; }
+  bool any_bent() const { return any_bent_; }          ///< whether some material has a normal map
+  bool any_occluded() const { return any_occluded_; }  ///< whether some material has an occlusion map
 
   // For materials that vary; `held` as held() returns it:
   const Material& material(std::size_t held) const { return materials_[held]; }
@@ -96,7 +104,7 @@ private:
   std::array<std::vector<glm::vec2>, 2> coordinates_;
   std::vector<glm::vec4> colors_;
   std::size_t coordinates_end_ = 0;  ///< vertices that have coordinates and colours
-  bool any_glossy_ = false;
+  bool any_glossy_ = false, any_bent_ = false, any_occluded_ = false;
 };
 
 }  // namespace tenebra::shade

@@ -75,8 +75,8 @@ Expected<ColourPasses> ColourPasses::create() {
   for (const Pass& pass : std::vector<Pass>{
            {"colours",
             &passes.colours_,
-            {limits, s::numbers_glsl, s::samples_glsl, s::textures_glsl, s::surfaces_glsl, s::lights_glsl,
-             s::colours_comp}},
+            {limits, s::numbers_glsl, s::samples_glsl, s::textures_glsl, s::surfaces_glsl, s::bend_glsl,
+             s::lights_glsl, s::colours_comp}},
            {"replaced", &passes.replaced_, {s::numbers_glsl, s::replaced_comp}},
            {"picture", &passes.picture_, {s::numbers_glsl, s::display_glsl, s::picture_comp}},
            {"centre_sums", &passes.centre_sums_, {s::numbers_glsl, s::display_glsl, s::centre_sums_comp}},

@@ -21,8 +21,8 @@ using glm::vec4;
 
 /// As Material of shaders/surfaces.glsl.
 struct MaterialRecord {
-  vec4 base, emissive, ambient, specular, more;
-  glm::ivec4 maps[3];
+  vec4 base, emissive, ambient, specular, more, detail;
+  glm::ivec4 maps[4];
 };
 
 /// As texture_at of shaders/textures.glsl takes them.
@@ -39,11 +39,13 @@ MaterialRecord record_of(const Material& m, const shade::SurfaceMaps& maps) {
   return {vec4(m.base_color, m.alpha),
           vec4(m.emissive, static_cast<float>(m.model)),
           vec4(m.ambient, passing),
-          vec4(m.specular, m.roughness),
-          vec4(m.metallic, m.phong_exponent, opaque, 0.0f),
+          vec4(m.model == SurfaceModel::metallic_roughness ? m.dielectric : m.specular, m.roughness),
+          vec4(m.metallic, m.phong_exponent, opaque, m.specular_share),
+          vec4(m.normal_scale, m.occlusion_strength, 0.0f, 0.0f),
           {{map_of(maps.base, m.base_color_map), map_of(maps.emissive, m.emissive_map)},
-           {map_of(maps.metallic_roughness, m.metallic_roughness_map), map_of(maps.specular, m.specular_map)},
-           {map_of(maps.transmission, m.transmission_map), 0, 0}}};
+           {map_of(maps.gloss, shade::gloss_map(m)), map_of(maps.specular, m.specular_map)},
+           {map_of(maps.transmission, m.transmission_map), map_of(maps.specular_share, m.specular_share_map)},
+           {map_of(maps.normal, m.normal_map), map_of(maps.occlusion, m.occlusion_map)}}};
 }
 static_assert(static_cast<int>(SurfaceModel::phong) == 0 &&
               static_cast<int>(SurfaceModel::metallic_roughness) == 1 &&
@@ -99,8 +101,8 @@ std::vector<const texture::MipTexture*> textures_of(const shade::SurfaceTable& s
   std::vector<const texture::MipTexture*> out;
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     const shade::SurfaceMaps& maps = surfaces.maps(i);
-    for (const shade::MapUse& use :
-         {maps.base, maps.emissive, maps.metallic_roughness, maps.specular, maps.transmission}) {
+    for (const shade::MapUse& use : {maps.base, maps.emissive, maps.gloss, maps.specular, maps.specular_share,
+                                     maps.transmission, maps.normal, maps.occlusion}) {
       if (!use) continue;
       const auto number = static_cast<std::size_t>(use.texture);
       if (number >= out.size()) out.resize(number + 1);
@@ -194,6 +196,8 @@ Expected<void> FrameInputs::send_geometry(const FrameGeometry& geometry, std::si
   if (auto sent = positions_.send(bytes_of(geometry.positions), sent_bytes); !sent) return sent;
   if (auto sent = triangles_.send(bytes_of(geometry.triangles), of_triangles); !sent) return sent;
   if (auto sent = normals_.send(bytes_of(geometry.normals), sent_bytes); !sent) return sent;
+  has_tangents_ = !geometry.tangents.empty();
+  if (auto sent = tangents_.send(bytes_of(geometry.tangents), sent_bytes); !sent) return sent;
   auto sent = material_numbers_.send(bytes_of(geometry.materials), of_triangles);
   sent_bytes += of_triangles;
   return sent;
@@ -253,7 +257,8 @@ void FrameInputs::bind(const gl::Program& program) const {
   glProgramUniform1ui(name, 12, colored_vertices_);
   glProgramUniform1ui(name, 13, material_count_);
   glProgramUniform1ui(name, 18, rules_);
-  bind_storage(8, textures_), bind_storage(9, planes_);
+  glProgramUniform1i(name, 23, has_tangents_ ? 1 : 0);
+  bind_storage(8, textures_), bind_storage(9, planes_), bind_storage(10, tangents_);
   bind_storage(0, positions_), bind_storage(1, triangles_), bind_storage(2, normals_);
   bind_storage(3, material_numbers_), bind_storage(4, materials_), bind_storage(7, vertex_colors_);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, lights_.buffer().name());

@@ -36,13 +36,13 @@ private:
                                std::size_t& sent_bytes);
 
   gl::SentBuffer positions_, triangles_, normals_, material_numbers_, materials_, vertex_colors_, lights_;
-  gl::SentBuffer textures_, planes_;
+  gl::SentBuffer textures_, planes_, tangents_;
   const shade::SurfaceTable* textured_ = nullptr;  // whose textures these are: they stay as they were made
   unsigned rules_ = 0;
   ViewRays view_;
   glm::vec3 ambient_light_{1.0f}, background_{0.0f};
   unsigned triangle_count_ = 0, material_count_ = 0, colored_vertices_ = 0;
-  bool has_normals_ = false, smooth_terminator_ = false;
+  bool has_normals_ = false, has_tangents_ = false, smooth_terminator_ = false;
 };
 
 }  // namespace tenebra::shade_gl

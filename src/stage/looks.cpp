@@ -27,7 +27,8 @@ void make_plain(Scene& scene) {
   for (Material& material : scene.materials) {
     if (material.model != SurfaceModel::unlit) material.model = SurfaceModel::phong;
     material.specular = glm::vec3(0.0f);
-    material.specular_map = material.metallic_roughness_map = {};
+    material.specular_map = material.metallic_roughness_map = material.exponent_map = {};
+    material.normal_map = material.occlusion_map = {};
     if (material.emissive_map) material.emissive = glm::vec3(0.0f);
     material.emissive_map = {};
     if (!material.see_through()) material.base_color_map = {};

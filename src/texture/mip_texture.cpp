@@ -25,6 +25,20 @@ const Table& decode_table(bool srgb) {
   return srgb ? curved : straight;
 }
 
+bool is_weighted(Content content) {
+  return content == Content::srgb_color || content == Content::display_color;
+}
+
+/// What a mean shows: a colour without its weight, a direction of length 1.
+glm::vec3 shown_of(const vec4& mean, Content content) {
+  const glm::vec3 value(mean);
+  if (is_weighted(content)) return (mean.a > 0 ? 1 / mean.a : 0.0f) * value;
+  if (content != Content::normal) return value;
+  const glm::vec3 direction = 2.0f * value - 1.0f;
+  const float length = glm::length(direction);
+  return length > 1e-6f ? 0.5f * (direction / length) + 0.5f : value;
+}
+
 std::uint16_t stored(float value) {
   return static_cast<std::uint16_t>(std::lround(MipTexture::one * std::clamp(value, 0.0f, 1.0f)));
 }
@@ -82,7 +96,7 @@ struct MipTexture::FloatLevel {
 MipTexture::MipTexture(const TextureImage& image, Content content, Wrap wrap_u, Wrap wrap_v)
     : width_(image.width), height_(image.height), wrap_u_(wrap_u), wrap_v_(wrap_v) {
   const Table& linear = decode_table(content == Content::srgb_color || content == Content::srgb_beside_data);
-  const bool weighted = content == Content::srgb_color || content == Content::display_color;
+  const bool weighted = is_weighted(content);
   std::size_t pixels = 0;
   for (level_count_ = 1; width(level_count_ - 1) > 1 || height(level_count_ - 1) > 1;) ++level_count_;
   for (int i = 0; i < level_count_; ++i)
@@ -96,17 +110,17 @@ MipTexture::MipTexture(const TextureImage& image, Content content, Wrap wrap_u, 
     const std::uint8_t* const p = &image.rgba[i];
     level.values.emplace_back(linear[p[0]], linear[p[1]], linear[p[2]], static_cast<float>(p[3]) / 255.0f);
   }
-  store(level, false);
+  store(level, Content::data);
   if (weighted) {
     for (vec4& value : level.values) value = vec4(value.a * glm::vec3(value), value.a);
   }
   while (level.width > 1 || level.height > 1) {
     level = level.halved();
-    store(level, weighted);
+    store(level, content);
   }
 }
 
-void MipTexture::store(const FloatLevel& level, bool weighted) {
+void MipTexture::store(const FloatLevel& level, Content content) {
   const auto stride = static_cast<std::size_t>(level.width) + 2,
              rows = static_cast<std::size_t>(level.height) + 2;
   starts_[static_cast<std::size_t>(level_count_)] =
@@ -115,9 +129,9 @@ void MipTexture::store(const FloatLevel& level, bool weighted) {
   for (int y = 0; y < level.height; ++y) {
     for (int x = 0; x < level.width; ++x) {
       const vec4& value = level.at(x, y);
-      const float share = weighted ? (value.a > 0 ? 1 / value.a : 0.0f) : 1.0f;
+      const glm::vec3 shown = shown_of(value, content);
       std::uint16_t* const to = texel(level_count_, x, y);
-      for (int c = 0; c < 3; ++c) to[c] = stored(value[c] * share);
+      for (int c = 0; c < 3; ++c) to[c] = stored(shown[c]);
       to[3] = stored(value.a);
     }
   }

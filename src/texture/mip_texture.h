@@ -15,13 +15,15 @@ enum class Content {
   srgb_color,        ///< encoded by the sRGB curve; decoded here
   srgb_beside_data,  ///< the same, beside an alpha that is no share of a surface
   display_color,     ///< taken as they are
-  data               ///< taken as they are, alpha too
+  data,              ///< taken as they are, alpha too
+  normal             ///< directions, each component from 0 to 1 for -1 to 1
 };
 
 /// Level 0 is the picture; each next level is half as wide and half as high, rounded down, to 1x1. A pixel of
 /// it is the mean of what it covers, of odd sizes in proportion, in linear light; colours count by their
-/// alpha, so that what is see-through does not shine through. All levels are kept linear, at 16 bits, rounded
-/// once, and with a border of one pixel: what stands beyond the edges by the two ways to wrap.
+/// alpha, so that what is see-through does not shine through, and means of directions are made unit again.
+/// All levels are kept linear, at 16 bits, rounded once, and with a border of one pixel: what stands beyond
+/// the edges by the two ways to wrap.
 class MipTexture {
 public:
   static constexpr int most_levels = 32;
@@ -43,7 +45,7 @@ public:
 
 private:
   struct FloatLevel;
-  void store(const FloatLevel& level, bool weighted);
+  void store(const FloatLevel& level, Content content);
   void add_border(int level);
   std::uint16_t* texel(int level, int x, int y);
 

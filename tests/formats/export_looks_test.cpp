@@ -78,6 +78,14 @@ void expect_same(const Material& a, const Material& b) {
   expect_same(a.metallic_roughness_map, b.metallic_roughness_map);
   expect_same(a.specular_map, b.specular_map);
   expect_same(a.transmission_map, b.transmission_map);
+  expect_same(a.specular_share_map, b.specular_share_map);
+  expect_same(a.exponent_map, b.exponent_map);
+  expect_same(a.normal_map, b.normal_map);
+  expect_same(a.occlusion_map, b.occlusion_map);
+  EXPECT_EQ(a.normal_scale, b.normal_scale);
+  EXPECT_EQ(a.occlusion_strength, b.occlusion_strength);
+  EXPECT_EQ(a.specular_share, b.specular_share);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(a.dielectric[c], b.dielectric[c], 1e-7);
 }
 
 /// As it went, without a warning.
@@ -89,8 +97,9 @@ RoundTrip clean_round_trip(const Scene& scene) {
 
 /// The maps of a material, to give their pictures other numbers.
 std::vector<TextureMap*> maps_of(Material& material) {
-  return {&material.base_color_map, &material.emissive_map, &material.metallic_roughness_map,
-          &material.specular_map, &material.transmission_map};
+  return {&material.base_color_map, &material.emissive_map,     &material.metallic_roughness_map,
+          &material.specular_map,   &material.transmission_map, &material.specular_share_map,
+          &material.exponent_map,   &material.normal_map,       &material.occlusion_map};
 }
 
 /// `material` with the numbers that its pictures have in `other`. They are written as they are first used.
@@ -150,6 +159,38 @@ TEST(ExportLooks, PhongComesBackAndOthersAreToldOfIt) {
   EXPECT_NE(losses[0].find("more than 1"), std::string::npos);
   EXPECT_NE(losses[1].find("Phong"), std::string::npos);
   EXPECT_NE(losses[2].find("tint"), std::string::npos);
+}
+
+TEST(ExportLooks, ReliefAndReflectanceComeBack) {
+  Material material = metal();
+  material.normal_map.image = 0;
+  material.normal_scale = 0.5f;
+  material.occlusion_map.image = 1;
+  material.occlusion_strength = 0.25f;
+  material.dielectric = {0.1f, 0.02f, 0.5f};
+  material.specular_share = 0.75f;
+  material.specular_map.image = 1;
+  material.specular_share_map.image = 0;
+  expect_back(material);
+  Material phong;
+  phong.specular = glm::vec3(0.5f);
+  phong.phong_exponent = 40;
+  phong.specular_map.image = 0;
+  phong.exponent_map.image = 1;
+  phong.normal_map.image = 1;
+  expect_back(phong);
+}
+
+TEST(ExportLooks, TangentsComeBackWhereAllVerticesHaveThem) {
+  Scene scene = coloured_triangle();
+  scene.materials = {metal()};
+  scene.materials[0].normal_map.image = 0;
+  Mesh& mesh = scene.meshes[0];
+  mesh.normals.assign(3, {0, 0, 1});
+  mesh.tangents = {{1, 0, 0, 1}, {0, 1, 0, -1}, {-1, 0, 0, 1}};
+  EXPECT_EQ(clean_round_trip(scene).back.meshes[0].tangents, mesh.tangents);
+  mesh.tangents[1] = glm::vec4(0);
+  EXPECT_TRUE(clean_round_trip(scene).back.meshes[0].tangents.empty());
 }
 
 TEST(ExportLooks, SpecularGlossinessAndUnlitComeBack) {

@@ -63,6 +63,20 @@ TEST(Meshopt, ReadsAttributesTrianglesAndIndices) {
     }
 }
 
+TEST(Meshopt, IsReadByItsLaterNameToo) {
+  // An optional library; files that need it are refused without it.
+  if (!testing::has_meshopt()) GTEST_SKIP() << "built without meshoptimizer (package libmeshoptimizer-dev)";
+  const Grid grid(8);
+  GltfBuilder file = testing::meshopt_file(grid, "TRIANGLES", 4);
+  std::string text = file.root.dump();
+  for (std::size_t at = 0; (at = text.find("EXT_meshopt")) != std::string::npos;) text.replace(at, 3, "KHR");
+  file.root = Json::parse(text);
+  const auto scene = file.import();
+  ASSERT_TRUE(scene.has_value()) << scene.error().message;
+  EXPECT_TRUE(scene->warnings.empty()) << joined(scene->warnings);
+  expect_grid(*scene, grid);
+}
+
 TEST(Meshopt, UndoesItsFilters) {
   // An optional library; files that need it are refused without it.
   if (!testing::has_meshopt()) GTEST_SKIP() << "built without meshoptimizer (package libmeshoptimizer-dev)";

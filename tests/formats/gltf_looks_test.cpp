@@ -178,6 +178,61 @@ TEST(GltfLooks, TransmissionIsTinted) {
   EXPECT_EQ(material.transmission_map.image, 0);
 }
 
+TEST(GltfLooks, NormalAndOcclusionMapsAreRead) {
+  LooksFile file;
+  const std::size_t bumps = file.texture(0), folds = file.texture(1);
+  file.material()["normalTexture"] = {
+      {"index", bumps}, {"scale", 0.25}, {"extensions", {{"KHR_texture_transform", {{"texCoord", 1}}}}}};
+  file.material()["occlusionTexture"] = {{"index", folds}, {"strength", 0.5}, {"texCoord", 1}};
+  const Material material = file.read();
+  EXPECT_EQ(material.normal_map.image, 0);
+  EXPECT_EQ(material.normal_map.uv_set, 1);
+  EXPECT_EQ(material.normal_scale, 0.25f);
+  EXPECT_EQ(material.occlusion_map.image, 1);
+  EXPECT_EQ(material.occlusion_map.uv_set, 1);
+  EXPECT_EQ(material.occlusion_strength, 0.5f);
+  file.material()["extensions"]["KHR_materials_unlit"] = Json::object();
+  EXPECT_FALSE(file.read().normal_map);
+}
+
+TEST(GltfLooks, TangentsAreReadWhereANormalMapUsesThem) {
+  LooksFile file;
+  const std::vector<float> up = {0, 0, 1, 0, 0, 1, 0, 0, 1};
+  const std::vector<float> along = {1, 0, 0, 1, 0, 1, 0, -1, 1, 0, 0, 1};
+  file.attributes()["NORMAL"] = file.accessor(up.data(), 36, 5126, "VEC3");
+  file.attributes()["TANGENT"] = file.accessor(along.data(), 48, 5126, "VEC4");
+  file.root["meshes"][0]["primitives"][0]["targets"] = {{{"TANGENT", file.attributes()["NORMAL"]}}};
+  const Mesh without = file.scene().meshes.at(0);
+  EXPECT_TRUE(without.tangents.empty());
+  EXPECT_TRUE(without.morph_targets.at(0).tangents.empty());
+  file.material()["normalTexture"] = {{"index", file.texture()}};
+  const Mesh mesh = file.scene().meshes.at(0);
+  EXPECT_EQ(mesh.tangents, (std::vector<glm::vec4>{{1, 0, 0, 1}, {0, 1, 0, -1}, {1, 0, 0, 1}}));
+  EXPECT_EQ(mesh.morph_targets.at(0).tangents, std::vector<glm::vec3>(3, glm::vec3(0, 0, 1)));
+  file.attributes().erase("NORMAL");  // glTF: tangents without normals are ignored
+  EXPECT_TRUE(file.scene().meshes.at(0).tangents.empty());
+}
+
+TEST(GltfLooks, ReflectanceOfWhatIsNoMetalIsRead) {
+  LooksFile file;
+  file.material()["extensions"]["KHR_materials_ior"] = {{"ior", 1.5}};
+  EXPECT_EQ(file.read().dielectric, glm::vec3(0.04f));
+  file.material()["extensions"]["KHR_materials_ior"] = {{"ior", 0}};
+  EXPECT_EQ(file.read().dielectric, glm::vec3(1));
+  const std::size_t share = file.texture(0), color = file.texture(1);
+  file.material()["extensions"] = {{"KHR_materials_ior", {{"ior", 2}}},
+                                   {"KHR_materials_specular",
+                                    {{"specularFactor", 0.5},
+                                     {"specularColorFactor", {0, 1, 9}},
+                                     {"specularTexture", {{"index", share}}},
+                                     {"specularColorTexture", {{"index", color}}}}}};
+  const Material material = file.read();
+  EXPECT_NEAR(glm::length(material.dielectric - glm::vec3(0, 1, 9) / 9.0f), 0, 1e-6);
+  EXPECT_EQ(material.specular_share, 0.5f);
+  EXPECT_EQ(material.specular_map.image, 0);  // in the order in which they are read
+  EXPECT_EQ(material.specular_share_map.image, 1);
+}
+
 TEST(GltfLooks, CoordinatesOfAllComponentTypesAreRead) {
   LooksFile file;
   const std::vector<float> first = {0, 0.5f, 1, -2, 3, 0.25f};

@@ -47,6 +47,33 @@ TEST(Frame, MirrorsFlipTheWindingAndTurnNormals) {
   expect_near(frame.normals[0], {0, 0, 1});
 }
 
+TEST(Frame, TangentsFollowTheSurfaceAndMirrorsTurnTheirSide) {
+  Scene scene = one_triangle();
+  EXPECT_TRUE(frame_of(scene).tangents.empty());
+  scene.nodes.push_back(scene.nodes[0]);
+  scene.nodes[1].mesh = 1;
+  scene.meshes.push_back(scene.meshes[0]);  // without tangents beside one that has them
+  Mesh& mesh = scene.meshes[0];
+  mesh.tangents.assign(3, {glm::normalize(glm::vec3(1, 1, 0)), 1});
+  scene.nodes[0].scale = {-4, 3, 1};
+  const FrameGeometry mirrored = frame_of(scene);
+  ASSERT_EQ(mirrored.tangents.size(), 6u);
+  expect_near(mirrored.tangents[0], {-0.8f, 0.6f, 0});
+  EXPECT_EQ(mirrored.tangents[0].w, -1.0f);
+  EXPECT_EQ(mirrored.tangents[3], glm::vec4(0));
+  scene.nodes[0].scale = {1, 1, 1};
+  mesh.morph_targets.resize(1);
+  mesh.morph_targets[0].tangents.assign(3, {0, 0, std::sqrt(0.5f)});
+  mesh.default_weights = {2};
+  expect_near(frame_of(scene).tangents[1], glm::normalize(glm::vec3(1, 1, 2)));
+  mesh.joints.assign(3, glm::u16vec4(0));
+  mesh.weights.assign(3, {1, 0, 0, 0});
+  scene.nodes[0].skin = 0;
+  scene.nodes[1].rotation = glm::angleAxis(std::acos(-1.0) / 2, glm::dvec3(0, 0, 1));
+  scene.skins.push_back({{1}, {}});
+  expect_near(frame_of(scene).tangents[1], glm::normalize(glm::vec3(-1, 1, 2)));
+}
+
 TEST(Frame, NormalsFollowTheInverseTranspose) {
   Scene scene = one_triangle();
   scene.meshes[0].normals.assign(3, glm::normalize(glm::vec3(1, 1, 0)));

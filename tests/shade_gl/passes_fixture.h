@@ -57,6 +57,8 @@ struct RandomScene {
     return {x, y, number(least, most)};
   }
 
+  /// Textures of all kinds on its surfaces, with tangents at some vertices.
+  void add_textures();
   /// What the pixels of a picture see.
   std::vector<std::uint32_t> ids_seen(int columns, int rows) const;
 
@@ -122,6 +124,41 @@ inline void RandomScene::add_materials() {
     materials.push_back(m);
   }
   surfaces = shade::SurfaceTable(std::span<const Material>(materials));
+}
+
+inline void RandomScene::add_textures() {
+  Scene scene;
+  Mesh mesh;
+  mesh.positions = geometry.positions;
+  mesh.triangles = geometry.triangles;
+  mesh.materials.assign(mesh.triangles.size(), 0);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const float u = number(0, 3);
+    mesh.texture_coordinates[0].emplace_back(u, number(0, 3));
+    const bool given = v / 3 % 4 == 0;
+    geometry.tangents.emplace_back(given ? glm::normalize(vector(-1, 1)) : glm::vec3(0.0f),
+                                   v / 12 % 2 == 0 ? 1.0f : -1.0f);
+  }
+  for (const int size : {4, 7}) {
+    TextureImage& image = scene.images.emplace_back(TextureImage{"noise", size, size, {}});
+    for (int i = 0; i < 4 * size * size; ++i)
+      image.rgba.push_back(static_cast<std::uint8_t>(i % 4 == 2 ? 200 : 64 + random() % 128));
+  }
+  for (Material& m : materials) {
+    TextureMap map{.image = 0, .transform = {0.5f, 0.25f, -0.25f, 0.5f, 0.1f, 0.2f}};
+    m.base_color_map = m.occlusion_map = m.specular_share_map = map;
+    map.transform = {-1, 0, 0, 1, 0, 0};
+    m.normal_map = m.exponent_map = m.metallic_roughness_map = map;
+    m.specular_map.image = 1;
+    m.normal_scale = number(0, 1);
+    m.occlusion_strength = number(0, 1);
+    m.specular_share = number(0, 1);
+    m.dielectric = vector(0, 0.2f);
+  }
+  scene.meshes.push_back(mesh);
+  scene.nodes.push_back({.mesh = 0});
+  scene.materials = materials;
+  surfaces = shade::SurfaceTable(scene);
 }
 
 inline void RandomScene::add_lights() {

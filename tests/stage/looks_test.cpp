@@ -33,6 +33,7 @@ TEST(Looks, PlainSurfacesKeepTheirFactorsAlone) {
   metal.model = SurfaceModel::metallic_roughness;
   metal.base_color = {1, 0, 0};
   metal.base_color_map.image = metal.metallic_roughness_map.image = 0;
+  metal.normal_map.image = metal.occlusion_map.image = 0;
   glass.transmission = 0.5f;
   glass.specular = glm::vec3(1.0f);
   glass.base_color_map.image = 0;
@@ -43,6 +44,7 @@ TEST(Looks, PlainSurfacesKeepTheirFactorsAlone) {
   EXPECT_EQ(first.base_color, glm::vec3(1, 0, 0));
   EXPECT_EQ(first.emissive, glm::vec3(0));
   EXPECT_FALSE(first.base_color_map || first.emissive_map || first.metallic_roughness_map);
+  EXPECT_FALSE(first.normal_map || first.occlusion_map);
   EXPECT_TRUE(scene.meshes[0].colors.empty());
   // What passes through glass stays.
   EXPECT_TRUE(second.base_color_map);

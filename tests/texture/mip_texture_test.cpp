@@ -42,6 +42,21 @@ constexpr Footprint enlarged{{1e-4f, 0}, {0, 1e-4f}};
 
 constexpr double step = 1 / 65535.0;  // between values that are kept
 
+TEST(MipTexture, MeansOfDirectionsAreUnitAgain) {
+  // Half of it leans to the right, half to the left: the mean of these is short, what is kept is not.
+  const TextureImage lean = image_of(4, 4, [](int x, int) {
+    return x % 2 ? glm::ivec4(230, 128, 204, 255) : glm::ivec4(77, 128, 204, 255);
+  });
+  const MipTexture made_of_normals = made(lean, Content::normal), of_data = made(lean, Content::data);
+  EXPECT_EQ(made_of_normals.pixel(0, 1, 0), of_data.pixel(0, 1, 0));
+  for (int level = 1; level < 3; ++level) {
+    const glm::vec3 mean = 2.0f * glm::vec3(of_data.pixel(level, 0, 0)) - 1.0f,
+                    kept = 2.0f * glm::vec3(made_of_normals.pixel(level, 0, 0)) - 1.0f;
+    EXPECT_LT(glm::length(mean), 0.7f);
+    EXPECT_NEAR(glm::length(kept - glm::normalize(mean)), 0, 4 * step);
+  }
+}
+
 TEST(MipTexture, LevelsAreMeansOfLight) {
   const TextureImage checker =
       image_of(8, 8, [](int x, int y) { return (x + y) % 2 ? glm::ivec4(255) : glm::ivec4(0, 0, 0, 255); });

@@ -110,16 +110,12 @@ Json counts_of(const Scene& scene, const session::SceneSummary& summary) {
 
 /// Triangles of the first frame by what their materials say.
 Json surfaces_of(const session::SurfaceCounts& counts) {
-  return {{"textured", counts.textured},
-          {"specular", counts.specular},
-          {"metallic", counts.metallic},
-          {"emissive", counts.emissive},
-          {"unlit", counts.unlit},
-          {"vertex_colors", counts.colored},
-          {"alpha_mask", counts.alpha_mask},
-          {"alpha_blend", counts.alpha_blend},
-          {"transmission", counts.transmission},
-          {"see_through", counts.see_through}};
+  return {{"textured", counts.textured},       {"normal_mapped", counts.normal_mapped},
+          {"specular", counts.specular},       {"metallic", counts.metallic},
+          {"emissive", counts.emissive},       {"unlit", counts.unlit},
+          {"vertex_colors", counts.colored},   {"alpha_mask", counts.alpha_mask},
+          {"alpha_blend", counts.alpha_blend}, {"transmission", counts.transmission},
+          {"see_through", counts.see_through}, {"normal_mapped", counts.normal_mapped}};
 }
 
 Json images_of(const Scene& scene) {
@@ -251,8 +247,12 @@ void print_text(const Json& json) {
   print_out("triangles_with: {}\n", line_of(json["triangles_with"]));
   print_out("colors: {}\n", json["colors"].get<std::string>());
   print_out("shown: {}\n", line_of(json["shown"]));
-  for (const char* key :
-       {"images", "extensions", "unused", "lights", "cameras", "clips", "warnings", "added"})
+  std::string unused;
+  for (const Json& content : json["unused"])
+    unused += fmt::format("{}{} ({})", unused.empty() ? "" : ", ", content["name"].get<std::string>(),
+                          content["count"].dump());
+  print_out("unused: {}\n", unused.empty() ? "none" : unused);
+  for (const char* key : {"images", "extensions", "lights", "cameras", "clips", "warnings", "added"})
     print_list(json, key);
 }
 

@@ -56,6 +56,8 @@ void GlbWriter::write_reflection(const Material& source, GlbJson& material) {
     extras["model"] = "phong";
     if (source.specular != glm::vec3(0)) extras["specular"] = to_json(source.specular);
     if (source.phong_exponent != 1) extras["phong_exponent"] = source.phong_exponent;
+    write_map(source.specular_map, "specular_texture", extras);
+    write_map(source.exponent_map, "phong_exponent_texture", extras);
   }
 }
 
@@ -70,6 +72,27 @@ void GlbWriter::write_emission(const Material& source, GlbJson& material) {
   use("KHR_materials_emissive_strength");
 }
 
+void GlbWriter::write_dielectric(const Material& source, GlbJson& material) {
+  const bool plain = source.dielectric == Material{}.dielectric && source.specular_share == 1 &&
+                     !source.specular_map && !source.specular_share_map;
+  if (source.model != SurfaceModel::metallic_roughness || plain) return;
+  GlbJson& written = material["extensions"]["KHR_materials_specular"];
+  written["specularFactor"] = source.specular_share;
+  const glm::dvec3 color = glm::dvec3(source.dielectric) / double{Material{}.dielectric.x};
+  written["specularColorFactor"] = {color.x, color.y, color.z};
+  write_map(source.specular_share_map, "specularTexture", written);
+  write_map(source.specular_map, "specularColorTexture", written);
+  use("KHR_materials_specular");
+}
+
+void GlbWriter::write_relief(const Material& source, GlbJson& material) {
+  write_map(source.normal_map, "normalTexture", material);
+  if (source.normal_map && source.normal_scale != 1) material["normalTexture"]["scale"] = source.normal_scale;
+  write_map(source.occlusion_map, "occlusionTexture", material);
+  if (source.occlusion_map && source.occlusion_strength != 1)
+    material["occlusionTexture"]["strength"] = source.occlusion_strength;
+}
+
 void GlbWriter::write_transmission(const Material& source, GlbJson& material) {
   if (source.transmission <= 0) return;
   GlbJson& written = material["extensions"]["KHR_materials_transmission"];
@@ -82,6 +105,8 @@ void GlbWriter::write_transmission(const Material& source, GlbJson& material) {
 GlbJson GlbWriter::write_material(const Material& source) {
   GlbJson material = {{"name", source.name}};
   write_reflection(source, material);
+  write_dielectric(source, material);
+  write_relief(source, material);
   write_emission(source, material);
   write_transmission(source, material);
   if (source.alpha_mode == AlphaMode::mask) {

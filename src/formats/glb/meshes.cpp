@@ -85,6 +85,17 @@ void write_coordinates(const Mesh& mesh, const Part& part, GlbBinary& binary, Gl
   attributes["COLOR_0"] = binary.add_floats(values, 4, false);
 }
 
+/// Left out where a vertex has none: readers make all of them then.
+void write_tangents(const Mesh& mesh, const Part& part, GlbBinary& binary, GlbJson& attributes) {
+  std::vector<float> values;
+  for (const std::uint32_t v : part.vertices) {
+    const glm::vec4& t = mesh.tangents[v];
+    if (t == glm::vec4(0)) return;
+    values.insert(values.end(), {t.x, t.y, t.z, t.w});
+  }
+  attributes["TANGENT"] = binary.add_floats(values, 4, false);
+}
+
 void write_influences(const std::vector<glm::u16vec4>& all_joints, const std::vector<glm::vec4>& all_weights,
                       const Part& part, const std::string& set, GlbJson& attributes, GlbBinary& binary) {
   std::vector<std::uint16_t> joints;
@@ -102,6 +113,7 @@ GlbJson write_attributes(const Mesh& mesh, const Part& part, const std::vector<g
                          GlbBinary& binary) {
   GlbJson attributes = {{"POSITION", binary.add_vec3(pick(rest_positions(mesh), part), true)}};
   if (!normals.empty()) attributes["NORMAL"] = binary.add_vec3(pick(normals, part), false);
+  if (!normals.empty() && !mesh.tangents.empty()) write_tangents(mesh, part, binary, attributes);
   write_coordinates(mesh, part, binary, attributes);
   if (!mesh.joints.empty()) write_influences(mesh.joints, mesh.weights, part, "0", attributes, binary);
   if (!mesh.more_joints.empty())
@@ -113,18 +125,21 @@ GlbJson write_attributes(const Mesh& mesh, const Part& part, const std::vector<g
 GlbJson write_targets(const Mesh& mesh, const Part& part, const std::vector<glm::vec3>& normals,
                       GlbBinary& binary) {
   GlbJson targets = GlbJson::array();
-  const auto add = [&](std::vector<glm::vec3> positions, const std::vector<glm::vec3>& turns) {
+  const auto add = [&](std::vector<glm::vec3> positions, const std::vector<glm::vec3>& turns,
+                       const std::vector<glm::vec3>& tangents) {
     if (positions.empty()) positions.resize(part.vertices.size());
     GlbJson target = {{"POSITION", binary.add_vec3(positions, true)}};
     if (!turns.empty()) target["NORMAL"] = binary.add_vec3(turns, false);
+    if (!tangents.empty()) target["TANGENT"] = binary.add_vec3(tangents, false);
     targets.push_back(std::move(target));
   };
   for (std::size_t s = 1; s < mesh.shapes.size(); ++s)
     add(pick(mesh.shapes[s].positions, part, &mesh.shapes[0].positions),
-        normals.empty() ? normals : pick(mesh.shapes[s].normals, part, &normals));
+        normals.empty() ? normals : pick(mesh.shapes[s].normals, part, &normals), {});
   if (mesh.shapes.empty())
     for (const MorphTarget& target : mesh.morph_targets)
-      add(pick(target.positions, part), normals.empty() ? normals : pick(target.normals, part));
+      add(pick(target.positions, part), normals.empty() ? normals : pick(target.normals, part),
+          normals.empty() ? normals : pick(target.tangents, part));
   return targets;
 }
 

@@ -104,6 +104,8 @@ private:
   void write_materials();
   GlbJson write_material(const Material& source);
   void write_reflection(const Material& source, GlbJson& material);
+  void write_dielectric(const Material& source, GlbJson& material);
+  void write_relief(const Material& source, GlbJson& material);
   void write_emission(const Material& source, GlbJson& material);
   void write_transmission(const Material& source, GlbJson& material);
   void name_what_others_miss();

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "formats/gltf/model.h"
+#include "scene/material_maps.h"
 
 namespace tenebra::formats::gltf {
 namespace {
@@ -52,9 +53,8 @@ constexpr const char* sets[] = {"TEXCOORD_0", "TEXCOORD_1"};
 bool lacks_coordinates(const Asset& asset, const tinygltf::Primitive& primitive) {
   if (primitive.material < 0) return false;
   const Material& m = asset.scene.materials[static_cast<std::size_t>(primitive.material)];
-  const TextureMap* maps[] = {&m.base_color_map, &m.emissive_map, &m.metallic_roughness_map, &m.specular_map,
-                              &m.transmission_map};
-  return std::any_of(std::begin(maps), std::end(maps), [&](const TextureMap* map) {
+  const auto maps = scene::texture_maps(m);
+  return std::any_of(maps.begin(), maps.end(), [&](const TextureMap* map) {
     return *map && !primitive.attributes.contains(sets[map->uv_set]);
   });
 }

@@ -13,14 +13,23 @@
 namespace tenebra::formats::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 14> understood_extensions = {
-    "KHR_lights_punctual",        "EXT_lights_area",
-    "KHR_mesh_quantization",      "KHR_materials_unlit",
-    "KHR_node_visibility",        "KHR_materials_emissive_strength",
-    "KHR_texture_transform",      "EXT_meshopt_compression",
-    "KHR_draco_mesh_compression", "EXT_mesh_gpu_instancing",
-    "KHR_animation_pointer",      "KHR_materials_transmission",
-    "EXT_texture_webp",           "KHR_materials_pbrSpecularGlossiness"};
+constexpr std::array<std::string_view, 17> understood_extensions = {"KHR_materials_ior",
+                                                                    "KHR_materials_specular",
+                                                                    "KHR_meshopt_compression",
+                                                                    "KHR_lights_punctual",
+                                                                    "EXT_lights_area",
+                                                                    "KHR_mesh_quantization",
+                                                                    "KHR_materials_unlit",
+                                                                    "KHR_node_visibility",
+                                                                    "KHR_materials_emissive_strength",
+                                                                    "KHR_texture_transform",
+                                                                    "EXT_meshopt_compression",
+                                                                    "KHR_draco_mesh_compression",
+                                                                    "EXT_mesh_gpu_instancing",
+                                                                    "KHR_animation_pointer",
+                                                                    "KHR_materials_transmission",
+                                                                    "EXT_texture_webp",
+                                                                    "KHR_materials_pbrSpecularGlossiness"};
 
 bool is_understood(std::string_view extension) {
   return std::find(understood_extensions.begin(), understood_extensions.end(), extension) !=
@@ -108,6 +117,7 @@ struct BufferSource {
 bool is_fallback(const Value& buffer) {
   const Value* extensions = member(buffer, "extensions");
   const Value* meshopt = extensions ? member(*extensions, "EXT_meshopt_compression") : nullptr;
+  if (extensions && !meshopt) meshopt = member(*extensions, "KHR_meshopt_compression");
   const Value* fallback = meshopt ? member(*meshopt, "fallback") : nullptr;
   if (!fallback || !fallback->Get<bool>()) return false;
   return has_meshopt() || !member(buffer, "uri");

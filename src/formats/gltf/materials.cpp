@@ -57,6 +57,7 @@ struct MaterialReader {
     material.roughness = share(pbr.roughnessFactor, "pbrMetallicRoughness.roughnessFactor");
     material.metallic_roughness_map =
         textures.map(pbr.metallicRoughnessTexture, place + ".pbrMetallicRoughness.metallicRoughnessTexture");
+    read_dielectric();
   }
 
   void read_specular_glossiness(const Value& value) {
@@ -71,6 +72,39 @@ struct MaterialReader {
                                    "extensions.KHR_materials_pbrSpecularGlossiness.glossinessFactor");
     material.base_color_map = textures.map(value, "diffuseTexture", here);
     material.specular_map = textures.map(value, "specularGlossinessTexture", here);
+  }
+
+  /// Reflectance of what is no metal: KHR_materials_ior and KHR_materials_specular.
+  void read_dielectric() {
+    if (const Value* value = extension("KHR_materials_ior")) {
+      double ior = number_or(*value, "ior", 1.5);
+      if (ior != 0 && !(ior >= 1)) {  // 0: all is reflected
+        warnings.push_back(fmt::format(
+            "{}.extensions.KHR_materials_ior.ior: found {}, expected 0 or at least 1; 1.5 is used.", place,
+            ior));
+        ior = 1.5;
+      }
+      const double root = (ior - 1) / (ior + 1);
+      material.dielectric = glm::vec3(static_cast<float>(root * root));
+    }
+    const Value* value = extension("KHR_materials_specular");
+    if (!value) return;
+    const std::string here = place + ".extensions.KHR_materials_specular";
+    glm::vec3 color(1);
+    read_color(*value, "specularColorFactor", color);
+    material.dielectric *= glm::max(color, glm::vec3(0));
+    material.specular_share =
+        share(number_or(*value, "specularFactor", 1), "extensions.KHR_materials_specular.specularFactor");
+    material.specular_map = textures.map(*value, "specularColorTexture", here);
+    material.specular_share_map = textures.map(*value, "specularTexture", here);
+  }
+
+  /// What bends normals and dims ambient light.
+  void read_relief() {
+    material.normal_map = textures.map(source.normalTexture, place + ".normalTexture");
+    material.normal_scale = static_cast<float>(source.normalTexture.scale);
+    material.occlusion_map = textures.map(source.occlusionTexture, place + ".occlusionTexture");
+    material.occlusion_strength = share(source.occlusionTexture.strength, "occlusionTexture.strength");
   }
 
   void read_emission() {
@@ -125,6 +159,8 @@ struct MaterialReader {
       material.roughness = 1;
       read_color(extras, "specular", material.specular);
       material.phong_exponent = static_cast<float>(std::max(number_or(extras, "phong_exponent", 1), 0.0));
+      material.specular_map = textures.map(extras, "specular_texture", place + ".extras");
+      material.exponent_map = textures.map(extras, "phong_exponent_texture", place + ".extras");
     }
     if (member(extras, "transmission")) {
       material.transmission = static_cast<float>(std::clamp(number_or(extras, "transmission", 0), 0.0, 1.0));
@@ -140,6 +176,7 @@ struct MaterialReader {
       read_specular_glossiness(*glossiness);
     else
       read_metallic_roughness();
+    if (material.model != SurfaceModel::unlit) read_relief();
     read_emission();
     read_alpha();
     read_transmission();

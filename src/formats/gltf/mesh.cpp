@@ -13,7 +13,7 @@ struct MeshBuilder {
   std::size_t index;
   Mesh mesh;
   std::size_t non_unit = 0, lines = 0, no_positions = 0, mended_weights = 0, repeated_joints = 0;
-  std::size_t without_coordinates = 0;
+  std::size_t without_coordinates = 0, odd_tangents = 0;
   bool ignored_sets = false, any_normals = false, any_joints = false, all_joints = true;
 
   std::string place(std::size_t primitive) const {
@@ -72,25 +72,31 @@ struct MeshBuilder {
         asset.scene.warnings.push_back(
             fmt::format("{}.attributes: found unknown '{}', left unread.", place(p), name));
       ignored_sets |= name.starts_with("JOINTS_") && name != "JOINTS_0" && name != "JOINTS_1";
-      if (name == "TANGENT") check_tangents(i, p);
     }
     return primitive;
   }
 
-  void check_tangents(int i, std::size_t p) {
-    if (accessor(i).type != TINYGLTF_TYPE_VEC4) return;
-    Budget kept = asset.budget;  // the numbers are kept for this check only
-    const std::vector<double> t = read_numbers(asset, i);
-    asset.budget = kept;
-    std::size_t odd = 0;
-    for (std::size_t k = 0; k + 4 <= t.size(); k += 4) {
-      const double length = std::sqrt(t[k] * t[k] + t[k + 1] * t[k + 1] + t[k + 2] * t[k + 2]);
-      odd += !(std::abs(length - 1) <= 2e-2) || std::abs(t[k + 3]) != 1;
+  /// Tangents where a normal map reads them. What is no direction is zero: the coordinates give one then.
+  void add_tangents(const tinygltf::Primitive& primitive, std::size_t p, std::size_t count) {
+    const auto found = primitive.attributes.find("TANGENT");
+    const bool normal = primitive.attributes.contains("NORMAL");
+    if (found == primitive.attributes.end() || !normal || primitive.material < 0) return;
+    if (!asset.scene.materials[static_cast<std::size_t>(primitive.material)].normal_map) return;
+    if (accessor(found->second).type != TINYGLTF_TYPE_VEC4) {
+      asset.scene.warnings.push_back(
+          fmt::format("{}.attributes.TANGENT: found accessors[{}] of another type, left unread.", place(p),
+                      found->second));
+      return;
     }
-    if (odd > 0)
-      asset.scene.warnings.push_back(fmt::format(
-          "{}.attributes.TANGENT: found {} not of unit length or with a sign other than 1 and -1; not read.",
-          place(p), odd));
+    const std::vector<double> t = read_numbers(asset, found->second);
+    mesh.tangents.resize(mesh.positions.size(), glm::vec4(0));
+    glm::vec4* out = mesh.tangents.data() + (mesh.tangents.size() - count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const glm::dvec3 along(t[4 * i], t[4 * i + 1], t[4 * i + 2]);
+      const double length = glm::length(along), side = t[4 * i + 3];
+      odd_tangents += !(std::abs(length - 1) <= 2e-2) || std::abs(side) != 1;
+      if (length > 0 && std::isfinite(length)) out[i] = {glm::vec3(along / length), side < 0 ? -1.0f : 1.0f};
+    }
   }
 
   void add_normals(const tinygltf::Primitive& primitive, std::size_t p) {
@@ -143,8 +149,10 @@ struct MeshBuilder {
         if (position && (accessor(i).minValues.empty() || accessor(i).maxValues.empty()))
           asset.scene.warnings.push_back(
               fmt::format("{}: found no min and max, which are not needed here.", what));
-        if (!position && name != "NORMAL") continue;
-        auto& list = position ? mesh.morph_targets[t].positions : mesh.morph_targets[t].normals;
+        MorphTarget& target = mesh.morph_targets[t];
+        const bool tangent = name == "TANGENT" && !mesh.tangents.empty();
+        if (!position && !tangent && name != "NORMAL") continue;
+        auto& list = position ? target.positions : tangent ? target.tangents : target.normals;
         list.resize(mesh.positions.size(), glm::vec3(0));
         const auto values = read_vec3(i, what);
         std::copy(values.begin(), values.end(), list.end() - static_cast<std::ptrdiff_t>(count));
@@ -221,6 +229,7 @@ struct MeshBuilder {
     const auto base = static_cast<std::uint32_t>(mesh.positions.size());
     mesh.positions.insert(mesh.positions.end(), positions.begin(), positions.end());
     add_normals(primitive, p);
+    add_tangents(primitive, p, positions.size());
     add_coordinates(asset, primitive, place(p), positions.size(), mesh);
     without_coordinates += lacks_coordinates(asset, primitive) ? 1 : 0;
     add_joints(primitive, p);
@@ -232,6 +241,7 @@ struct MeshBuilder {
   void even_out() {
     const std::size_t count = mesh.positions.size();
     if (any_normals) mesh.normals.resize(count, glm::vec3(0));
+    if (!mesh.tangents.empty()) mesh.tangents.resize(count, glm::vec4(0));
     even_out_coordinates(mesh);
     if (any_joints && !all_joints) mesh.joints.clear(), mesh.weights.clear();
     mesh.more_joints.resize(mesh.more_joints.empty() ? 0 : mesh.joints.size(), glm::u16vec4(0));
@@ -240,6 +250,7 @@ struct MeshBuilder {
       if (!target.positions.empty()) target.positions.resize(count, glm::vec3(0));
       if (mesh.normals.empty()) target.normals.clear();
       if (!target.normals.empty()) target.normals.resize(count, glm::vec3(0));
+      if (!target.tangents.empty()) target.tangents.resize(count, glm::vec3(0));
     }
   }
 
@@ -248,6 +259,10 @@ struct MeshBuilder {
     const std::string here = fmt::format("meshes[{}]", index);
     if (non_unit > 0)
       warnings.push_back(fmt::format("{}: found {} normals not of unit length; made so.", here, non_unit));
+    if (odd_tangents > 0)
+      warnings.push_back(
+          fmt::format("{}: found {} tangents not of unit length or with a sign other than 1 and -1; made so.",
+                      here, odd_tangents));
     if (lines > 0)
       warnings.push_back(fmt::format("{}: skipped {} primitives of points or lines.", here, lines));
     if (no_positions > 0)

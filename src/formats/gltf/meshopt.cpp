@@ -1,4 +1,5 @@
-// EXT_meshopt_compression: views of compressed data become buffers of their own.
+// EXT_meshopt_compression, and KHR_meshopt_compression, its later name: views of compressed data become
+// buffers of their own.
 #include <fmt/core.h>
 #include <algorithm>
 
@@ -26,7 +27,7 @@ void pay_for_decoded(Asset& asset, std::uint64_t stored, std::uint64_t decoded, 
 
 namespace {
 
-constexpr const char* compression_name = "EXT_meshopt_compression";
+constexpr const char* compression_names[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
 
 struct Compressed {
   std::string place;
@@ -40,9 +41,9 @@ std::uint64_t integer(const Value& value, const char* name) {
 }
 
 /// The stored bytes of view `index`, checked against their buffer; counts checked against each other.
-Compressed read_header(const Asset& asset, std::size_t index, const Value& value) {
+Compressed read_header(const Asset& asset, std::size_t index, const char* name, const Value& value) {
   Compressed result;
-  result.place = fmt::format("bufferViews[{}].extensions.{}", index, compression_name);
+  result.place = fmt::format("bufferViews[{}].extensions.{}", index, name);
   const std::string& buffer = asset.buffers[integer(value, "buffer")];
   const std::uint64_t offset = integer(value, "byteOffset"), length = integer(value, "byteLength");
   if (offset > buffer.size() || length > buffer.size() - offset)
@@ -123,11 +124,13 @@ bool has_meshopt() {
 void decode_meshopt(Asset& asset) {
   for (std::size_t i = 0; i < asset.model.bufferViews.size(); ++i) {
     auto& view = asset.model.bufferViews[i];
-    const auto found = view.extensions.find(compression_name);
-    if (found == view.extensions.end()) continue;
+    const auto* const name =
+        std::find_if(std::begin(compression_names), std::end(compression_names),
+                     [&](const char* candidate) { return view.extensions.contains(candidate); });
+    if (name == std::end(compression_names)) continue;
     // Without the library the file's fallback is read, where there is one.
     if (!has_meshopt() && !asset.buffers[static_cast<std::size_t>(view.buffer)].empty()) continue;
-    const Compressed compressed = read_header(asset, i, found->second);
+    const Compressed compressed = read_header(asset, i, *name, view.extensions.at(*name));
     check_mode(compressed);
     pay_for_decoded(asset, compressed.bytes.size(), compressed.count * compressed.stride, compressed.place);
     set_view(asset, view, decode(compressed));

@@ -185,9 +185,10 @@ int Textures::image_of(int texture, const std::string& place) {
   return -1;
 }
 
-TextureMap Textures::map(const Use& use, const std::string& place) {
+TextureMap Textures::map(Use use, const std::string& place) {
   TextureMap map;
   if (use.texture < 0) return map;
+  if (use.transform) use.uv_set = static_cast<int>(number_or(*use.transform, "texCoord", use.uv_set));
   auto& warnings = asset_.scene.warnings;
   if (use.uv_set < 0 || use.uv_set > 1) {
     warnings.push_back(
@@ -205,15 +206,6 @@ TextureMap Textures::map(const Use& use, const std::string& place) {
   return map;
 }
 
-TextureMap Textures::map(const tinygltf::TextureInfo& info, const std::string& place) {
-  Use use{info.index, info.texCoord, nullptr};
-  if (const auto found = info.extensions.find("KHR_texture_transform"); found != info.extensions.end()) {
-    use.transform = &found->second;
-    use.uv_set = static_cast<int>(number_or(found->second, "texCoord", use.uv_set));
-  }
-  return map(use, place);
-}
-
 TextureMap Textures::map(const Value& extension, const char* name, const std::string& place) {
   const Value* info = member(extension, name);
   if (!info) return {};
@@ -221,7 +213,6 @@ TextureMap Textures::map(const Value& extension, const char* name, const std::st
           nullptr};
   if (const Value* extensions = member(*info, "extensions"))
     use.transform = member(*extensions, "KHR_texture_transform");
-  if (use.transform) use.uv_set = static_cast<int>(number_or(*use.transform, "texCoord", use.uv_set));
   return map(use, place + "." + name);
 }
 

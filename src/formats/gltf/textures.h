@@ -9,23 +9,28 @@
 namespace tenebra::formats::gltf {
 
 class Textures {
-public:
-  /// Warns of images whose place or kind is not allowed, used or not.
-  Textures(Asset& asset, const std::filesystem::path& folder, SceneImages images);
-
-  /// What a texture of a material is: `info` says which and by which coordinates. No map where its picture
-  /// cannot be read.
-  TextureMap map(const tinygltf::TextureInfo& info, const std::string& place);
-  /// The texture that an extension has as its member `name`; no map without one.
-  TextureMap map(const Value& extension, const char* name, const std::string& place);
-
-private:
   struct Use {
     int texture = -1;
     int uv_set = 0;
     const Value* transform = nullptr;
   };
-  TextureMap map(const Use& use, const std::string& place);
+
+public:
+  /// Warns of images whose place or kind is not allowed, used or not.
+  Textures(Asset& asset, const std::filesystem::path& folder, SceneImages images);
+
+  /// What a texture of a material is: `info`, tinygltf's of any kind, says which and by which coordinates. No
+  /// map where its picture cannot be read.
+  template <class Info>
+  TextureMap map(const Info& info, const std::string& place) {
+    const auto found = info.extensions.find("KHR_texture_transform");
+    return map({info.index, info.texCoord, found == info.extensions.end() ? nullptr : &found->second}, place);
+  }
+  /// The texture that an extension has as its member `name`; no map without one.
+  TextureMap map(const Value& extension, const char* name, const std::string& place);
+
+private:
+  TextureMap map(Use use, const std::string& place);
   int image_of(int texture, const std::string& place);
   int image(int index);
   const Value* source(int index) const;

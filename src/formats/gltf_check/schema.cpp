@@ -127,7 +127,7 @@ std::string check_gltf_schema(std::string_view json, std::vector<std::string>& w
     refuse("JSON: found a number beyond the range of double, expected a smaller one");
   }
   write_version_as_text(root);
-  name_unused_looks(root, warnings, unused);
+  name_unused_looks(root, unused);
   schema::check_fields(root, warnings);
   part_matrix_from_parts(root, warnings);
   blank_unknown_accessors(root, warnings);

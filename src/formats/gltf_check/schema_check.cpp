@@ -203,6 +203,8 @@ private:
         return value.is_string();
       case Kind::number:
         return value.is_number();
+      case Kind::object:
+        return value.is_object();
       default:
         return value.is_array() && value.size() == field.length &&
                std::all_of(value.begin(), value.end(), is_number);

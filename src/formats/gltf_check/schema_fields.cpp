@@ -8,14 +8,6 @@ constexpr Field name_field{"name", Kind::string};
 constexpr Field extras_fields[] = {{"casts_shadow", Kind::boolean}};
 constexpr Field extras_field{"extras", Kind::object, false, "", 0, extras_fields};
 
-constexpr Field material_extras_fields[] = {{"casts_shadow", Kind::boolean},
-                                            {"ambient", Kind::numbers, false, "", 3},
-                                            {"base_color", Kind::numbers, false, "", 3},
-                                            {"emissive", Kind::numbers, false, "", 3},
-                                            {"model", Kind::string},
-                                            {"specular", Kind::numbers, false, "", 3},
-                                            {"phong_exponent", Kind::number},
-                                            {"transmission", Kind::number}};
 constexpr Field light_extras_fields[] = {
     {"falloff", Kind::string}, {"intensity", Kind::number}, {"diameter_deg", Kind::number}};
 
@@ -86,7 +78,8 @@ constexpr Field compressed_view_fields[] = {{"buffer", Kind::ref, required, "buf
                                             {"mode", Kind::string, required},
                                             {"filter", Kind::string}};
 constexpr Field view_extension_fields[] = {
-    {"EXT_meshopt_compression", Kind::object, false, "", 0, compressed_view_fields}};
+    {"EXT_meshopt_compression", Kind::object, false, "", 0, compressed_view_fields},
+    {"KHR_meshopt_compression", Kind::object, false, "", 0, compressed_view_fields}};
 constexpr Field view_fields[] = {{"extensions", Kind::object, false, "", 0, view_extension_fields},
                                  {"buffer", Kind::ref, required, "buffers"},
                                  {"byteOffset", Kind::integer},
@@ -95,7 +88,8 @@ constexpr Field view_fields[] = {{"extensions", Kind::object, false, "", 0, view
                                  {"target", Kind::integer}};
 constexpr Field fallback_fields[] = {{"fallback", Kind::boolean}};
 constexpr Field buffer_extension_fields[] = {
-    {"EXT_meshopt_compression", Kind::object, false, "", 0, fallback_fields}};
+    {"EXT_meshopt_compression", Kind::object, false, "", 0, fallback_fields},
+    {"KHR_meshopt_compression", Kind::object, false, "", 0, fallback_fields}};
 constexpr Field buffer_fields[] = {{"uri", Kind::string},
                                    {"byteLength", Kind::integer, required},
                                    {"extensions", Kind::object, false, "", 0, buffer_extension_fields}};
@@ -108,6 +102,27 @@ constexpr Field texture_info_extension_fields[] = {
 constexpr Field texture_info_fields[] = {
     {"index", Kind::ref, required, "textures"},
     {"texCoord", Kind::integer},
+    {"extensions", Kind::object, false, "", 0, texture_info_extension_fields}};
+constexpr Field material_extras_fields[] = {
+    {"casts_shadow", Kind::boolean},
+    {"ambient", Kind::numbers, false, "", 3},
+    {"base_color", Kind::numbers, false, "", 3},
+    {"emissive", Kind::numbers, false, "", 3},
+    {"model", Kind::string},
+    {"specular", Kind::numbers, false, "", 3},
+    {"phong_exponent", Kind::number},
+    {"transmission", Kind::number},
+    {"specular_texture", Kind::object, false, "", 0, texture_info_fields},
+    {"phong_exponent_texture", Kind::object, false, "", 0, texture_info_fields}};
+constexpr Field normal_info_fields[] = {
+    {"index", Kind::ref, required, "textures"},
+    {"texCoord", Kind::integer},
+    {"scale", Kind::number},
+    {"extensions", Kind::object, false, "", 0, texture_info_extension_fields}};
+constexpr Field occlusion_info_fields[] = {
+    {"index", Kind::ref, required, "textures"},
+    {"texCoord", Kind::integer},
+    {"strength", Kind::number},
     {"extensions", Kind::object, false, "", 0, texture_info_extension_fields}};
 constexpr Field pbr_fields[] = {
     {"baseColorFactor", Kind::numbers, false, "", 4},
@@ -125,7 +140,15 @@ constexpr Field glossiness_fields[] = {
 constexpr Field transmission_fields[] = {
     {"transmissionFactor", Kind::number},
     {"transmissionTexture", Kind::object, false, "", 0, texture_info_fields}};
+constexpr Field ior_fields[] = {{"ior", Kind::number}};
+constexpr Field specular_fields[] = {
+    {"specularFactor", Kind::number},
+    {"specularColorFactor", Kind::numbers, false, "", 3},
+    {"specularTexture", Kind::object, false, "", 0, texture_info_fields},
+    {"specularColorTexture", Kind::object, false, "", 0, texture_info_fields}};
 constexpr Field material_extension_fields[] = {
+    {"KHR_materials_ior", Kind::object, false, "", 0, ior_fields},
+    {"KHR_materials_specular", Kind::object, false, "", 0, specular_fields},
     {"KHR_materials_emissive_strength", Kind::object, false, "", 0, strength_fields},
     {"KHR_materials_unlit", Kind::object},
     {"KHR_materials_pbrSpecularGlossiness", Kind::object, false, "", 0, glossiness_fields},
@@ -133,8 +156,8 @@ constexpr Field material_extension_fields[] = {
 constexpr Field material_fields[] = {name_field,
                                      {"extras", Kind::object, false, "", 0, material_extras_fields},
                                      {"pbrMetallicRoughness", Kind::object, false, "", 0, pbr_fields},
-                                     {"normalTexture", Kind::object, false, "", 0, texture_info_fields},
-                                     {"occlusionTexture", Kind::object, false, "", 0, texture_info_fields},
+                                     {"normalTexture", Kind::object, false, "", 0, normal_info_fields},
+                                     {"occlusionTexture", Kind::object, false, "", 0, occlusion_info_fields},
                                      {"emissiveTexture", Kind::object, false, "", 0, texture_info_fields},
                                      {"emissiveFactor", Kind::numbers, false, "", 3},
                                      {"alphaMode", Kind::string},

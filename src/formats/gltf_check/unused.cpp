@@ -1,10 +1,10 @@
 #include "formats/gltf_check/unused.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string_view>
 
 namespace tenebra::formats {
 namespace {
@@ -21,13 +21,13 @@ const Json& member(const Json& value, const char* name) {
 }
 
 bool is_read(const std::string& extension) {
-  return extension == "KHR_materials_emissive_strength" || extension == "KHR_materials_unlit" ||
-         extension == "KHR_materials_pbrSpecularGlossiness" || extension == "KHR_materials_transmission";
+  static const std::set<std::string_view> names = {
+      "KHR_materials_emissive_strength", "KHR_materials_ior",          "KHR_materials_pbrSpecularGlossiness",
+      "KHR_materials_specular",          "KHR_materials_transmission", "KHR_materials_unlit"};
+  return names.contains(extension);
 }
 
 void count_material(const Json& material, Counts& counts) {
-  for (const char* texture : {"normalTexture", "occlusionTexture"})
-    if (!member(material, texture).is_null()) ++counts[texture];
   const Json& extensions = member(material, "extensions");
   if (!extensions.is_object()) return;
   for (const auto& [name, unused] : extensions.items())
@@ -46,22 +46,16 @@ void count_primitive(const Json& primitive, Counts& counts) {
     ++counts["KHR_materials_variants"];
 }
 
-/// `where`: one of what is counted, "material".
-void report(const Counts& counts, const char* where, std::vector<std::string>& warnings,
-            std::vector<UnusedContent>& unused) {
+void report(const Counts& counts, std::vector<UnusedContent>& unused) {
   for (const auto& [name, count] : counts) {
     const std::string shown = Json(name).dump(-1, ' ', true, Json::error_handler_t::replace);
-    const std::string plain = shown.substr(1, std::min<std::size_t>(shown.size() - 2, 60));
-    warnings.push_back(fmt::format("{}: found in {} {}{}, where it is not used.", plain, count, where,
-                                   count == 1 ? "" : "s"));
-    unused.push_back({plain, count});
+    unused.push_back({shown.substr(1, std::min<std::size_t>(shown.size() - 2, 60)), count});
   }
 }
 
 }  // namespace
 
-void name_unused_looks(const Json& root, std::vector<std::string>& warnings,
-                       std::vector<UnusedContent>& unused) {
+void name_unused_looks(const Json& root, std::vector<UnusedContent>& unused) {
   Counts of_materials, of_primitives;
   const Json& materials = member(root, "materials");
   if (materials.is_array())
@@ -76,8 +70,8 @@ void name_unused_looks(const Json& root, std::vector<std::string>& warnings,
   constexpr std::size_t most_names = 100;
   while (of_materials.size() > most_names) of_materials.erase(std::prev(of_materials.end()));
   while (of_primitives.size() > most_names) of_primitives.erase(std::prev(of_primitives.end()));
-  report(of_materials, "material", warnings, unused);
-  report(of_primitives, "primitive", warnings, unused);
+  report(of_materials, unused);
+  report(of_primitives, unused);
 }
 
 }  // namespace tenebra::formats

@@ -9,10 +9,8 @@
 
 namespace tenebra::formats {
 
-/// Counts normal and occlusion textures, extensions of materials, and further sets of texture coordinates and
-/// colours, as a file that is not checked yet has them: `unused` gets an entry for each name, `warnings` a
-/// sentence.
-void name_unused_looks(const nlohmann::json& root, std::vector<std::string>& warnings,
-                       std::vector<UnusedContent>& unused);
+/// Counts extensions of materials that are not read, and further sets of texture coordinates and colours, as
+/// a file that is not checked yet has them: an entry for each name.
+void name_unused_looks(const nlohmann::json& root, std::vector<UnusedContent>& unused);
 
 }  // namespace tenebra::formats

@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
+#include "formats/images/derived.h"
 #include "formats/import_failure.h"
 #include "formats/scene_file.h"
 
@@ -108,6 +111,40 @@ int SceneImages::add(std::string_view bytes, const std::string& name) {
   } catch (const ImportFailure& failure) {
     return fail(name, failure.what());
   }
+}
+
+int SceneImages::derive(const std::string& name, int width, int height,
+                        const std::function<TextureImage()>& make) {
+  try {
+    charge_pixels(static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height), pixels_left_);
+    scene_.images.push_back(make());
+    return static_cast<int>(scene_.images.size()) - 1;
+  } catch (const ImportFailure& failure) {
+    return fail(name, failure.what());
+  }
+}
+
+int SceneImages::normals_of_bumps(int bumps, float scale) {
+  if (bumps < 0) return -1;
+  const auto [entry, is_new] = normals_of_.try_emplace({bumps, scale}, bumps);
+  if (!is_new) return entry->second;
+  const TextureImage& image = scene_.images[static_cast<std::size_t>(bumps)];
+  if (!holds_heights(image)) return bumps;
+  const double height = 0.01 * std::max(image.width, image.height) * double{scale};
+  return entry->second =
+             derive(image.name, image.width, image.height, [&] { return normals_of_heights(image, height); });
+}
+
+int SceneImages::with_alpha(int colors, int shares) {
+  if (shares < 0) return -1;
+  const auto [entry, is_new] = with_alpha_.try_emplace({colors, shares}, -1);
+  if (!is_new) return entry->second;
+  const TextureImage white{"white", 1, 1, {255, 255, 255, 255}};
+  const TextureImage& color = colors < 0 ? white : scene_.images[static_cast<std::size_t>(colors)];
+  const TextureImage& share = scene_.images[static_cast<std::size_t>(shares)];
+  return entry->second =
+             derive(share.name, std::max(color.width, share.width), std::max(color.height, share.height),
+                    [&] { return formats::with_alpha(color, share); });
 }
 
 }  // namespace tenebra::formats

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -28,11 +29,19 @@ public:
   int find_uri(const std::string& uri, const std::string& place);
   /// A picture whose bytes are at hand.
   int add(std::string_view bytes, const std::string& name);
+  /// The normal map that a bump map is or stands for; white is a hundredth of the picture's longer side
+  /// higher than black, times `scale`. -1 for -1.
+  int normals_of_bumps(int bumps, float scale);
+  /// The colours of one picture (-1: white) with the other as its alpha, as with_alpha() says; -1 where the
+  /// second is.
+  int with_alpha(int colors, int shares);
 
 private:
   std::filesystem::path search(const std::string& name, const std::string& place, bool percent_encoded);
   int load(const std::string& name, const std::string& place, bool percent_encoded);
   int fail(const std::string& name, const std::string& why);
+  /// Adds what `make` makes, once there is room for its pixels.
+  int derive(const std::string& name, int width, int height, const std::function<TextureImage()>& make);
 
   Scene& scene_;
   std::vector<std::filesystem::path> folders_;          ///< the scene's and two in it, then the texture paths
@@ -40,6 +49,8 @@ private:
   std::vector<std::filesystem::path>* files_read_;      ///< ImportOptions'
   std::map<std::string, int> index_of_;                 ///< by name in the scene file
   std::map<std::filesystem::path, int> index_of_file_;  ///< by place on disk
+  std::map<std::pair<int, float>, int> normals_of_;     ///< by bump map and scale
+  std::map<std::pair<int, int>, int> with_alpha_;       ///< by both pictures
   std::uint64_t pixels_left_ = most_scene_pixels;
 };
 

@@ -16,17 +16,21 @@ struct Line {
   int first, second;
 };
 
-/// The lines of one period: through all pixel centres, and its two ends.
-std::vector<Line> lines_of(int size, Wrap wrap) {
+/// The lines of one period: through all pixel centres, or beside both edges of all pixels, and its two ends.
+std::vector<Line> lines_of(int size, Wrap wrap, bool in_squares) {
   const int last = size - 1;
   std::vector<Line> lines;
-  lines.reserve(static_cast<std::size_t>(size) + 2);
+  lines.reserve(2 * static_cast<std::size_t>(size) + 2);
   if (wrap == Wrap::clamp_to_edge) {
     lines.push_back({-far_away, 0, 0});
   } else {
     lines.push_back({-0.5, 0, wrap == Wrap::repeat ? last : 0});
   }
-  for (int i = 0; i < size; ++i) lines.push_back({static_cast<double>(i), i, i});
+  const double half = in_squares ? 0.5 - edge_width : 0.0;
+  for (int i = 0; i < size; ++i) {
+    if (in_squares) lines.push_back({i - half, i, i});
+    lines.push_back({i + half, i, i});
+  }
   if (wrap == Wrap::clamp_to_edge) {
     lines.push_back({far_away, last, last});
   } else {
@@ -48,8 +52,8 @@ std::vector<double> places(const std::vector<Line>& lines) {
 
 }  // namespace
 
-AlphaGrid alpha_of(const TextureImage& image) {
-  AlphaGrid grid{image.width, image.height, {}};
+AlphaGrid alpha_of(const TextureImage& image, Filter filter) {
+  AlphaGrid grid{image.width, image.height, {}, filter == Filter::nearest};
   const auto count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   grid.alpha.resize(count);
   for (std::size_t i = 0; i < count; ++i) grid.alpha[i] = image.rgba[4 * i + 3];
@@ -57,7 +61,7 @@ AlphaGrid alpha_of(const TextureImage& image) {
 }
 
 AlphaGrid half_of(const AlphaGrid& grid) {
-  AlphaGrid half{(grid.width + 1) / 2, (grid.height + 1) / 2, {}};
+  AlphaGrid half{(grid.width + 1) / 2, (grid.height + 1) / 2, {}, grid.in_squares};
   half.alpha.reserve(static_cast<std::size_t>(half.width) * static_cast<std::size_t>(half.height));
   const auto at = [&](int x, int y) {
     x = std::min(x, grid.width - 1), y = std::min(y, grid.height - 1);
@@ -75,8 +79,8 @@ AlphaGrid half_of(const AlphaGrid& grid) {
 }
 
 TiledSheet wrap_sheet(const AlphaGrid& grid, Wrap wrap_u, Wrap wrap_v) {
-  const std::vector<Line> columns = lines_of(grid.width, wrap_u);
-  const std::vector<Line> rows = lines_of(grid.height, wrap_v);
+  const std::vector<Line> columns = lines_of(grid.width, wrap_u, grid.in_squares);
+  const std::vector<Line> rows = lines_of(grid.height, wrap_v, grid.in_squares);
   TiledSheet result{{places(columns), places(rows), {}},
                     {tiling_of(grid.width, wrap_u), tiling_of(grid.height, wrap_v)}};
   result.sheet.values.reserve(columns.size() * rows.size());
@@ -103,6 +107,7 @@ AlphaSheet sample_sheet(std::vector<double> xs, std::vector<double> ys,
 }
 
 double sample_alpha(const AlphaGrid& grid, Wrap wrap_u, Wrap wrap_v, glm::dvec2 place) {
+  if (grid.in_squares) place = glm::floor(place + 0.5);
   const double x0 = std::floor(place.x), y0 = std::floor(place.y);
   const auto column = static_cast<std::int64_t>(x0), row = static_cast<std::int64_t>(y0);
   const auto at = [&](std::int64_t x, std::int64_t y) -> double {

@@ -15,8 +15,13 @@ struct AlphaGrid {
   int width = 0;
   int height = 0;
   std::vector<float> alpha;  ///< row by row
+  bool in_squares = false;   ///< a place has the alpha of the pixel that it lies in, not one between pixels
 };
-AlphaGrid alpha_of(const TextureImage& image);
+AlphaGrid alpha_of(const TextureImage& image, Filter filter);
+
+/// Where alpha changes from one square to the next it does so over twice this, in pixels: outlines run along
+/// the pixels' edges no farther from them, and do not touch where pixels meet at a corner.
+constexpr double edge_width = 1.0 / 128;
 AlphaGrid half_of(const AlphaGrid& grid);
 
 /// Values where grid lines cross, bilinear between them. Coordinates are in pixels of the grid, (0,0) the
@@ -47,7 +52,7 @@ TiledSheet wrap_sheet(const AlphaGrid& grid, Wrap wrap_u, Wrap wrap_v);
 AlphaSheet sample_sheet(std::vector<double> xs, std::vector<double> ys,
                         const std::function<double(double x, double y)>& value);
 
-/// The grid's value at a place, as the maps wrap: bilinear, in double.
+/// The grid's value at a place, as the maps wrap: of its square, or bilinear, in double.
 double sample_alpha(const AlphaGrid& grid, Wrap wrap_u, Wrap wrap_v, glm::dvec2 place);
 
 }  // namespace tenebra::stage

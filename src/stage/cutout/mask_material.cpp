@@ -30,6 +30,14 @@ std::vector<double> lines(double low, double high, int count) {
   return result;
 }
 
+/// Lines beside both edges of pixels `low` to `high`.
+std::vector<double> square_lines(double low, double high) {
+  std::vector<double> result;
+  for (double i = low; i <= high; ++i)
+    result.insert(result.end(), {i - 0.5 + edge_width, i + 0.5 - edge_width});
+  return result;
+}
+
 /// Whether the corners span an area that places between them can be found by.
 bool has_area(const std::array<glm::dvec2, 3>& p) {
   const glm::dvec2 u = p[1] - p[0], v = p[2] - p[0], w = p[2] - p[1];
@@ -57,7 +65,8 @@ MaskMaterial::MaskMaterial(const Scene& scene, std::size_t material, std::vector
       instances_(instances) {}
 
 void MaskMaterial::load_grid(int level) {
-  grid_ = image_ ? alpha_of(*image_) : AlphaGrid{1, 1, {static_cast<float>(full)}};
+  grid_ = image_ ? alpha_of(*image_, material_.base_color_map.magnify)
+                 : AlphaGrid{1, 1, {static_cast<float>(full)}};
   for (int i = 0; i < level && can_be_coarser(); ++i) grid_ = half_of(grid_);
   const auto [least, most] = std::minmax_element(grid_.alpha.begin(), grid_.alpha.end());
   least_ = *least, most_ = *most;
@@ -137,8 +146,11 @@ bool MaskMaterial::cut_varying(const Sampled& sampled, const Bounds& bounds, Cut
     const double factor = sampled.factor[0] * (1 - b - c) + sampled.factor[1] * b + sampled.factor[2] * c;
     return factor * sample_alpha(grid_, map.wrap_u, map.wrap_v, at);
   };
-  AlphaSheet sheet = sample_sheet(lines(low.x, high.x, static_cast<int>(size.x) * between),
-                                  lines(low.y, high.y, static_cast<int>(size.y) * between), value);
+  const auto along = [&](int axis) {
+    return grid_.in_squares ? square_lines(low[axis], high[axis])
+                            : lines(low[axis], high[axis], static_cast<int>(size[axis]) * between);
+  };
+  const AlphaSheet sheet = sample_sheet(along(0), along(1), value);
   Region region{build_tree(trace_outline(sheet, full * material_.alpha_cutoff, bounds.tolerance)), {}};
   return !region.tree.outline.too_long && cut_triangle(p, region, bounds.most_triangles, out);
 }

@@ -22,6 +22,15 @@ void append_mix(std::vector<Value>& list, std::size_t size, const Corners& from,
   if (list.size() == size) list.push_back(Value(mix<Wide>(list, from, vertex)));
 }
 
+void append_tangent(std::vector<glm::vec4>& tangents, std::size_t size, const Corners& from,
+                    const CutVertex& vertex) {
+  if (tangents.size() != size) return;
+  const glm::dvec4 sum = mix<glm::dvec4>(tangents, from, vertex);
+  const double length = glm::length(glm::dvec3(sum));
+  tangents.push_back(length > 0 ? glm::vec4(glm::vec3(glm::dvec3(sum) / length), sum.w < 0 ? -1.0f : 1.0f)
+                                : glm::vec4(0.0f));
+}
+
 void append_normal(std::vector<glm::vec3>& normals, std::size_t size, const Corners& from,
                    const CutVertex& vertex) {
   if (normals.size() != size) return;
@@ -76,11 +85,13 @@ std::uint32_t NewVertices::append(const Corners& from, const CutVertex& vertex) 
   const std::size_t size = mesh_.positions.size();
   append_joints(from, vertex);
   append_normal(mesh_.normals, size, from, vertex);
+  append_tangent(mesh_.tangents, size, from, vertex);
   for (auto& coordinates : mesh_.texture_coordinates) append_mix<glm::dvec2>(coordinates, size, from, vertex);
   append_mix<glm::dvec4>(mesh_.colors, size, from, vertex);
   for (MorphTarget& target : mesh_.morph_targets) {
     append_mix<glm::dvec3>(target.positions, size, from, vertex);
     append_mix<glm::dvec3>(target.normals, size, from, vertex);
+    append_mix<glm::dvec3>(target.tangents, size, from, vertex);
   }
   for (Mesh::Shape& shape : mesh_.shapes) {
     append_mix<glm::dvec3>(shape.positions, size, from, vertex);

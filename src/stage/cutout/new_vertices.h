@@ -10,8 +10,8 @@
 
 namespace tenebra::stage {
 
-/// Adds vertices to a mesh. Values are mixed in double and rounded once; normals are unit again; of the
-/// skin's joints the eight with most weight stay, scaled to the sum that all had.
+/// Adds vertices to a mesh. Values are mixed in double and rounded once; normals and tangents are unit again;
+/// of the skin's joints the eight with most weight stay, scaled to the sum that all had.
 class NewVertices {
 public:
   explicit NewVertices(Mesh& mesh) : mesh_(mesh) {}

@@ -224,6 +224,24 @@ Scene patched(Scene scene, int n, unsigned seed) {
   return scene;
 }
 
+TEST(Cutout, RunsAlongThePixelsOfANearestSampler) {
+  for (const bool varying : {false, true}) {
+    Scene scene = card(noise(9, 7, 3));
+    scene.materials[0].base_color_map.magnify = Filter::nearest;
+    if (varying) scene.meshes[0].colors = {{1, 1, 1, 1}, {1, 1, 1, 0.5f}, {1, 1, 1, 0.5f}, {1, 1, 1, 1}};
+    stage::cut_out_masks(scene);
+    const Cover cover(scene.meshes[0]);
+    for (int i = 0; i < 9 * 7 * 4; ++i) {
+      const int x = i / 4 % 9, y = i / 36;
+      const glm::dvec2 at((x + (i % 2 == 0 ? 0.03 : 0.96)) / 9, (y + (i / 2 % 2 == 0 ? 0.04 : 0.97)) / 7);
+      const double alpha = scene.images[0].rgba[static_cast<std::size_t>(4 * (9 * y + x) + 3)] / 255.0;
+      const double left = alpha * (varying ? 1 - 0.5 * at.x : 1.0) - 0.5;
+      if (std::abs(left) < 0.01) continue;
+      EXPECT_EQ(cover.count(at), left > 0 ? 1 : 0) << x << " " << y << " " << i % 4;
+    }
+  }
+}
+
 TEST(Cutout, MeetsAcrossEdges) {
   Scene mirrored = card(noise(16, 12, 5), {-1.7f, -0.2f}, {1.6f, 2.9f});
   mirrored.materials[0].base_color_map.wrap_u = Wrap::mirrored_repeat;
