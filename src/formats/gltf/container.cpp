@@ -44,7 +44,7 @@ void check_glb_header(std::string_view bytes) {
            bytes.size());
   if (word(bytes, 0) != glb_magic) refuse("GLB header: found magic {:#010x}, expected glTF", word(bytes, 0));
   if (word(bytes, 4) == 1)
-    refuse("GLB header: found version 1, expected 2: import it in Blender and export glTF 2.0");
+    refuse("GLB header: found version 1, expected 2: gltf-pipeline makes glTF 2.0 of it");
   if (word(bytes, 4) != 2) refuse("GLB header: found version {}, expected 2", word(bytes, 4));
 }
 

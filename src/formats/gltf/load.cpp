@@ -55,6 +55,7 @@ bool leaves_geometry(std::string_view name) {
                                                     "KHR_lights_environment",
                                                     "KHR_node_hoverability",
                                                     "KHR_node_selectability",
+                                                    "KHR_technique_webgl",
                                                     "KHR_techniques_webgl",
                                                     "KHR_xmp",
                                                     "KHR_xmp_json_ld",
@@ -72,7 +73,7 @@ void check_version(Asset& asset) {
   const std::string& version = asset.model.asset.version;
   const std::string& least = asset.model.asset.minVersion;
   if (version.starts_with("1"))
-    refuse("asset.version: found '{}', expected 2.x: import it in Blender and export glTF 2.0", version);
+    refuse("asset.version: found '{}', expected 2.x: gltf-pipeline makes glTF 2.0 of it", version);
   if (version != "2" && !version.starts_with("2."))
     refuse("asset.version: found '{}', expected 2.x", version);
   if (!least.empty() && !least.starts_with("2.")) refuse("asset.minVersion: found '{}', expected 2.x", least);

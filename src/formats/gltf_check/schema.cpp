@@ -107,11 +107,18 @@ void mark_channels_without_nodes(Json& root) {
       if (!channel["target"].contains("node")) channel["target"]["node"] = -1;
 }
 
-/// "version": 2.0 means what "2.0" does.
-void write_version_as_text(Json& root) {
-  if (!root.is_object() || !root.contains("asset") || !root["asset"].is_object()) return;
-  Json& asset = root["asset"];
-  if (asset.contains("version") && asset["version"].is_number()) asset["version"] = asset["version"].dump();
+/// "version": 2.0 means what "2.0" does, and "scene": 0 nothing in a file without scenes.
+void mend_root(Json& root, std::vector<std::string>& warnings) {
+  if (!root.is_object()) return;
+  if (root.contains("meshes") && root["meshes"].is_object())
+    refuse("meshes: found tables of glTF 1.0, expected 2.0: gltf-pipeline makes glTF 2.0 of it");
+  if (root.contains("asset") && root["asset"].is_object()) {
+    Json& asset = root["asset"];
+    if (asset.contains("version") && asset["version"].is_number()) asset["version"] = asset["version"].dump();
+  }
+  if (!root.contains("scene") || root.contains("scenes")) return;
+  root.erase("scene");
+  warnings.push_back("scene: found a reference, expected none in a file without scenes.");
 }
 
 }  // namespace
@@ -126,7 +133,7 @@ std::string check_gltf_schema(std::string_view json, std::vector<std::string>& w
   } catch (const Json::out_of_range&) {
     refuse("JSON: found a number beyond the range of double, expected a smaller one");
   }
-  write_version_as_text(root);
+  mend_root(root, warnings);
   name_unused_looks(root, unused);
   schema::check_fields(root, warnings);
   part_matrix_from_parts(root, warnings);
