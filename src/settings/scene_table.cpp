@@ -86,6 +86,27 @@ Setting<SceneSettings> texture_path() {
       read, texts);
 }
 
+Setting<SceneSettings> file_root() {
+  const auto read = [](SceneSettings& scene, const std::string& text) -> Expected<void> {
+    std::error_code none;
+    if (!std::filesystem::is_directory(text, none))
+      return base::fail("found no folder {}, expected one that is there", text);
+    scene.import.root = text;
+    return {};
+  };
+  const auto texts = [](const SceneSettings& scene) {
+    const std::string folder = scene.import.root.string();
+    return folder.empty() ? std::vector<std::string>() : std::vector{folder};
+  };
+  return SceneRow::own({.name = "file-root",
+                        .value = "DIR",
+                        .help = "Folder anywhere in which the files that a scene names may lie, by ../ too",
+                        .standard = "the scene's folder",
+                        .group = Group::scene,
+                        .affects = Affects::files},
+                       read, texts);
+}
+
 /// --set-light and the like: texts are those of edit_options.
 Setting<SceneSettings> edit(About about, Expected<void> (*parse)(const std::string&, stage::SceneEdits&)) {
   about.value = "TEXT";
@@ -167,6 +188,7 @@ void add_files(SceneRows& rows) {
        .expected = "a whole number from 0 to 1000000"},
       [](auto& scene) -> auto& { return scene.cutout_limit; }));
   rows.push_back(texture_path());
+  rows.push_back(file_root());
 }
 
 void add_looks(SceneRows& rows) {

@@ -31,6 +31,7 @@ const std::map<std::string_view, std::string> samples{
     {"offset", "691234,5334567.5,0"},
     {"no-cast", "glass"},
     {"texture-path", "."},
+    {"file-root", "."},
     {"environment", "sky.hdr"},
     {"set-light", "0 intensity=2"},
     {"add-light", "point position=0,0,0 direction=0,-1,0 intensity=1 color=1,1,1"},

@@ -136,6 +136,7 @@ std::vector<render::LogSetting> describe_render(const RenderPlan& plan, const Re
   for (const std::string& name : options.scene.no_cast) list.push_back({"no_cast", name});
   for (const auto& folder : options.scene.import.texture_paths)
     list.push_back({"texture_path", folder.string()});
+  if (!options.scene.import.root.empty()) list.push_back({"file_root", options.scene.import.root.string()});
   for (const std::string& warning : staged.scene.warnings) list.push_back({"warning", warning});
   return list;
 }

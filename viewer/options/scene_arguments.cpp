@@ -13,8 +13,9 @@ std::string of(const SceneOptions& options, std::initializer_list<std::string_vi
 }  // namespace
 
 std::string dressing_arguments(const SceneOptions& options) {
-  return of(options, {"scene", "up-axis", "unit", "offset", "no-cast", "cast-all", "cone-sides",
-                      "cutout-limit", "texture-path", "transfer", "environment", "sky", "floor", "surfaces"});
+  return of(options,
+            {"scene", "up-axis", "unit", "offset", "no-cast", "cast-all", "cone-sides", "cutout-limit",
+             "texture-path", "file-root", "transfer", "environment", "sky", "floor", "surfaces"});
 }
 
 std::string view_arguments(const SceneOptions& options) {
