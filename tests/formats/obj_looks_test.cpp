@@ -94,13 +94,36 @@ TEST_F(ObjLooks, NamesOfOtherMachinesAreFoundByTheirLastPart) {
 }
 
 TEST_F(ObjLooks, WhatIsMissingOrNotUsedIsNamed) {
-  const Scene scene = read("newmtl m\nKd 1 0 0\nmap_Kd none.png\nmap_bump b.png\n", textured_square);
-  ASSERT_EQ(scene.warnings.size(), 2u);
+  const Scene scene = read("newmtl m\nKd 1 0 0\nmap_Kd none.png\nmap_Pr b.png\n", textured_square);
+  ASSERT_EQ(scene.warnings.size(), 1u);
   EXPECT_NE(scene.warnings[0].find("none.png"), std::string::npos) << scene.warnings[0];
-  EXPECT_NE(scene.warnings[1].find("map_bump: found in 1 material,"), std::string::npos) << scene.warnings[1];
   EXPECT_EQ(scene.materials[0].base_color, glm::vec3(1, 0, 0));
   ASSERT_EQ(scene.unused.size(), 1u);
-  EXPECT_EQ(scene.unused[0].name, "map_bump");
+  EXPECT_EQ(scene.unused[0].name, "map_Pr");
+}
+
+TEST_F(ObjLooks, MapsOfNormalsAlphaAndGlossAreRead) {
+  write_text(folder_ / "t.png", png_of(small_picture(2, 2)));
+  io::Image8 heights{2, 2, 1, {0, 255, 0, 255}}, normals{2, 2, 3, {}}, shares{2, 2, 1, {255, 0, 0, 255}};
+  for (int i = 0; i < 4; ++i) normals.pixels.insert(normals.pixels.end(), {128, 128, 255});
+  write_text(folder_ / "heights.png", png_of(heights));
+  write_text(folder_ / "normals.png", png_of(normals));
+  write_text(folder_ / "shares.png", png_of(shares));
+  const std::string gloss = "newmtl m\nKd 1 1 1\nKs 1 1 1\nNs 20\n";
+  const auto material = [&](const std::string& maps) {
+    return read(gloss + maps, textured_square).materials.at(0);
+  };
+  EXPECT_TRUE(material("norm normals.png\n").normal_map);
+  EXPECT_TRUE(material("map_Ks t.png\nmap_Ns t.png\n").specular_map);
+  EXPECT_TRUE(material("map_Ks t.png\nmap_Ns t.png\n").exponent_map);
+  const Scene bumps = read(gloss + "bump -bm 2 heights.png\n", textured_square);
+  ASSERT_EQ(bumps.images.size(), 2u) << "the heights, and normals made of them";
+  EXPECT_EQ(bumps.materials[0].normal_map.image, 1);
+  EXPECT_EQ(read(gloss + "map_Bump normals.png\n", textured_square).materials[0].normal_map.image, 0);
+  const Scene cut = read(gloss + "map_Kd t.png\nmap_d shares.png\n", textured_square);
+  EXPECT_EQ(cut.materials[0].alpha_mode, AlphaMode::mask);
+  EXPECT_EQ(cut.images.at(static_cast<std::size_t>(cut.materials[0].base_color_map.image)).pixels.at(3), 255);
+  EXPECT_EQ(cut.images.at(static_cast<std::size_t>(cut.materials[0].base_color_map.image)).pixels.at(7), 0);
 }
 
 TEST_F(ObjLooks, ColoursOfVerticesAreRead) {

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <unordered_map>
 
+#include "formats/images/derived.h"
 #include "formats/obj/mtl.h"
 #include "formats/obj/text_lines.h"
 
@@ -34,7 +36,32 @@ float alpha_of(const MtlMaterial& source) {
   return std::clamp(alpha, 0.0f, 1.0f);
 }
 
-Material read_material(const MtlMaterial& source, SceneImages& images) {
+/// map_d: alpha from a picture of its own, or from the alpha of map_Kd's where both name one.
+void read_alpha_map(const MtlMaterial& source, const std::string& place, SceneImages& images,
+                    const Scene& scene, Material& material) {
+  const TextureMap shares = map_of(source.map({"map_d"}), place, images);
+  if (!shares) return;
+  const int both =
+      images.with_alpha(material.base_color_map ? material.base_color_map.image : -1, shares.image);
+  if (both < 0) return;
+  if (!material.base_color_map) material.base_color_map = shares;
+  material.base_color_map.image = both;
+  const bool cut = cuts_out(scene.images[static_cast<std::size_t>(both)]);
+  if (material.alpha_mode == AlphaMode::opaque)
+    material.alpha_mode = cut ? AlphaMode::mask : AlphaMode::blend;
+}
+
+/// norm holds normals; bump and map_Bump heights, or in many files normals too.
+void read_normal_map(const MtlMaterial& source, const std::string& place, SceneImages& images,
+                     Material& material) {
+  material.normal_map = map_of(source.map({"norm"}), place, images);
+  const MtlMap* const bumps = source.map({"map_bump", "bump"});
+  if (material.normal_map || bumps == nullptr) return;
+  material.normal_map = map_of(bumps, place, images);
+  material.normal_map.image = images.normals_of_bumps(material.normal_map.image, bumps->bump);
+}
+
+Material read_material(const MtlMaterial& source, SceneImages& images, const Scene& scene) {
   constexpr int diffuse_only = 1;  // one of the MTL format's illumination models
   const std::string place = fmt::format("material '{}'", source.name);
   Material material;
@@ -57,27 +84,30 @@ Material read_material(const MtlMaterial& source, SceneImages& images) {
   }
   material.alpha = alpha_of(source);
   if (material.alpha < 1) material.alpha_mode = AlphaMode::blend;
+  if (material.specular != glm::vec3(0)) {
+    material.specular_map = map_of(source.map({"map_ks"}), place, images);
+    material.exponent_map = map_of(source.map({"map_ns"}), place, images);
+  }
+  read_alpha_map(source, place, images, scene, material);
+  read_normal_map(source, place, images, material);
   return material;
 }
 
 /// What the materials have and nothing here uses.
 void name_unused(const std::vector<MtlMaterial>& sources, Scene& scene) {
   std::map<std::string, std::size_t> counts;
+  static const std::set<std::string_view> used{"map_kd", "map_ke",   "map_ks", "map_ns",
+                                               "map_d",  "map_bump", "bump",   "norm"};
   for (const MtlMaterial& source : sources)
     for (const MtlMap& map : source.maps)
-      if (map.statement != "map_kd" && map.statement != "map_ke" && counts.size() < 20)
-        ++counts[shown_word(map.written)];
-  for (const auto& [name, count] : counts) {
-    scene.warnings.push_back(
-        fmt::format("{}: found in {} material{}, where it is not used.", name, count, count == 1 ? "" : "s"));
-    scene.unused.push_back({name, count});
-  }
+      if (!used.contains(map.statement) && counts.size() < 20) ++counts[shown_word(map.written)];
+  for (const auto& [name, count] : counts) scene.unused.push_back({name, count});
 }
 
 }  // namespace
 
 void add_materials(const std::vector<MtlMaterial>& sources, SceneImages& images, Scene& scene) {
-  for (const MtlMaterial& source : sources) scene.materials.push_back(read_material(source, images));
+  for (const MtlMaterial& source : sources) scene.materials.push_back(read_material(source, images, scene));
   if (transparency_means_opacity(sources)) {
     for (Material& material : scene.materials) material.alpha = 1, material.alpha_mode = AlphaMode::opaque;
     scene.warnings.push_back(
