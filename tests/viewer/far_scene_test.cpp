@@ -79,5 +79,31 @@ TEST(FarScene, InfoSpeaksOfTheFilesCoordinates) {
   EXPECT_NE(tenebra({"info", far}).output.find("offset (1000000, 0, -2000000)"), std::string::npos);
 }
 
+/// A box of 10.3 x 3.1 x 8.2 m on a floor, at a place of a map.
+std::string write_house(const TemporaryFolder& folder, double east, double north) {
+  std::string text;
+  const auto corner = [&](double x, double y, double z) {
+    text +=
+        "v " + std::to_string(east + x) + " " + std::to_string(y) + " " + std::to_string(north + z) + "\n";
+  };
+  for (const double x : {-20.0, 25.0}) corner(x, 0, -20), corner(x, 0, 25);
+  for (const double y : {0.0, 3.1})
+    for (const double x : {0.0, 10.3}) corner(x, y, 0), corner(x, y, 8.2);
+  text += "f 1 2 4 3\nf 9 10 12 11\nf 5 9 11 7\nf 6 8 12 10\nf 5 6 10 9\nf 7 11 12 8\n";
+  write_text(folder / "house.obj", text);
+  return folder / "house.obj";
+}
+
+TEST(FarScene, AHouseOnAMapKeepsItsMillimetres) {
+  const TemporaryFolder folder;
+  const std::string house = write_house(folder, 691234.127, -5334567.381);
+  const Json bounds = Json::parse(tenebra({"info", house, "--json"}).output)["bounds_m"];
+  EXPECT_NEAR(bounds["low"][0], 691214.127, 1e-5);
+  EXPECT_NEAR(bounds["low"][2], -5334587.381, 1e-5);
+  EXPECT_EQ(tenebra({"verify", house, "--size", "80x60", "--quiet"}).exit_code, 0);
+  const auto wrong = tenebra({"verify", house, "--size", "80x60", "--quiet", "--offset", "none"});
+  EXPECT_EQ(wrong.exit_code, 2) << wrong.output;
+}
+
 }  // namespace
 }  // namespace tenebra::testing
