@@ -122,8 +122,8 @@ TEST_F(ObjLooks, MapsOfNormalsAlphaAndGlossAreRead) {
   EXPECT_EQ(read(gloss + "map_Bump normals.png\n", textured_square).materials[0].normal_map.image, 0);
   const Scene cut = read(gloss + "map_Kd t.png\nmap_d shares.png\n", textured_square);
   EXPECT_EQ(cut.materials[0].alpha_mode, AlphaMode::mask);
-  EXPECT_EQ(cut.images.at(static_cast<std::size_t>(cut.materials[0].base_color_map.image)).pixels.at(3), 255);
-  EXPECT_EQ(cut.images.at(static_cast<std::size_t>(cut.materials[0].base_color_map.image)).pixels.at(7), 0);
+  EXPECT_EQ(cut.images.at(static_cast<std::size_t>(cut.materials[0].base_color_map.image)).rgba.at(3), 255);
+  EXPECT_EQ(cut.images.at(static_cast<std::size_t>(cut.materials[0].base_color_map.image)).rgba.at(7), 0);
 }
 
 TEST_F(ObjLooks, ColoursOfVerticesAreRead) {
