@@ -36,11 +36,14 @@ float alpha_of(const MtlMaterial& source) {
   return std::clamp(alpha, 0.0f, 1.0f);
 }
 
-/// map_d: alpha from a picture of its own, or from the alpha of map_Kd's where both name one.
+/// map_d: alpha from a picture of its own, which is used where it lies on the surface as map_Kd does.
 void read_alpha_map(const MtlMaterial& source, const std::string& place, SceneImages& images,
                     const Scene& scene, Material& material) {
   const TextureMap shares = map_of(source.map({"map_d"}), place, images);
-  if (!shares) return;
+  const TextureMap& colors = material.base_color_map;
+  const bool placed_alike =
+      !colors || (colors.transform == shares.transform && colors.wrap_u == shares.wrap_u);
+  if (!shares || !placed_alike) return;
   const int both =
       images.with_alpha(material.base_color_map ? material.base_color_map.image : -1, shares.image);
   if (both < 0) return;
