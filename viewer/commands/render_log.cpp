@@ -37,7 +37,7 @@ std::string added_text(const stage::AddedParts& added) {
   std::string text;
   for (const auto& [is_added, name] :
        {std::pair(added.camera, "camera"), std::pair(added.light, added.lamp ? "lamp" : "sun"),
-        std::pair(added.floor, "floor")})
+        std::pair(added.floor, "floor"), std::pair(added.sky, "sky")})
     if (is_added) text += fmt::format("{}{}", text.empty() ? "" : ", ", name);
   return text.empty() ? "nothing" : text;
 }
