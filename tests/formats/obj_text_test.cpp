@@ -69,6 +69,16 @@ TEST_F(ObjText, NumbersAreReadInDoubleAndInEverySpelling) {
   EXPECT_EQ(file.positions[2], glm::dvec3(1, 0.5, -200));
 }
 
+TEST_F(ObjText, MapCoordinatesLoseAWholeOffsetBeforeTheyBecomeFloats) {
+  const Scene scene =
+      read("v 431234.75 0 -5812345.25\nv 431245.05 0 -5812345.25\nv 431245.05 6 -5812353.45\nf 1 2 3\n");
+  EXPECT_EQ(glm::round(scene.frame.origin), scene.frame.origin);
+  EXPECT_NE(scene.frame.origin, glm::dvec3(0));
+  const glm::dvec3 edge =
+      glm::dvec3(scene.meshes.at(0).positions[1]) - glm::dvec3(scene.meshes[0].positions[0]);
+  EXPECT_NEAR(edge.x, 10.3, 1e-5) << "floats of the file's own numbers give 10.3125";
+}
+
 TEST_F(ObjText, AByteOrderMarkIsNoPartOfTheFirstWord) {
   write_text(folder_ / "a.mtl", "\xEF\xBB\xBFnewmtl red\nKd 1 0 0\n");
   const Scene scene = read("\xEF\xBB\xBFv 0 0 0\nv 1 0 0\nv 0 1 0\nmtllib a.mtl\nusemtl red\nf 1 2 3\n");
