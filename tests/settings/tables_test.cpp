@@ -34,7 +34,7 @@ const std::map<std::string_view, std::string> samples{
     {"file-root", "."},
     {"environment", "sky.hdr"},
     {"set-light", "0 intensity=2"},
-    {"add-light", "point position=0,0,0 direction=0,-1,0 intensity=1 color=1,1,1"},
+    {"add-light", "point position=0,0,0 intensity=1 color=1,1,1"},
     {"set-material", "0 roughness=0.5"},
     {"set-node", "1 visible=0"},
     {"time", "1.5"},

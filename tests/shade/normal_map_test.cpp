@@ -194,9 +194,10 @@ TEST_F(NormalMap, AllVectorLevelsGiveTheSameBits) {
   m.occlusion_map.image = 0;
   m.specular_share_map.image = 0;
   for (const SimdLevel level : {SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512})
-    if (simd_level_supported(level))
+    if (simd_level_supported(level)) {
       EXPECT_EQ(shaded(sun({0.3f, 0.5f, 0.6f}), vec3(0.2f), -1, level),
                 shaded(sun({0.3f, 0.5f, 0.6f}), vec3(0.2f)));
+    }
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // The program as a whole: help, bad options, exit codes, sentences.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cctype>

@@ -17,7 +17,7 @@ stage::SceneEdits some_of_everything() {
   edits.lights.resize(2);
   edits.lights[1] = {.intensity = 0.5f, .color = vec3(1, 0.25f, 0), .direction = vec3(0.5f, -1, 1e-7f)};
   edits.added = {{.type = LightType::spot, .position = {1, 2, -3}, .intensity = 7, .color = {0, 1, 0.5f}},
-                 {.type = LightType::directional, .direction = {0, 0, 1}}};
+                 {.type = LightType::directional, .direction = vec3(0, 0, 1)}};
   edits.materials[3] = {.color = vec3(0.1f, 0.2f, 0.3f), .roughness = 0.75f};
   edits.materials[0] = {.emissive = vec3(2, 0, 0), .specular = vec3(0.5f), .metallic = 1.0f};
   edits.nodes[5] = {.visible = false};
