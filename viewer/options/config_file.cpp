@@ -66,7 +66,8 @@ std::string unknown_key(CLI::App& command, const CLI::ConfigItem& item) {
     for (const std::string& name : option->get_lnames())
       if (!option->get_group().empty() && option_of_key(command, name) != nullptr) known.push_back(name);
   return fmt::format("found the name '{}', expected the long name of an option of tenebra {}{}",
-                     item.fullname(), command.get_name(), did_you_mean(nearest_word(item.name, known), "{}"));
+                     item.fullname(), command.get_name(),
+                     did_you_mean(settings::nearest_word(item.name, known), "{}"));
 }
 
 std::string unknown_section(const std::vector<CLI::App*>& commands, const CLI::ConfigItem& item) {
@@ -75,7 +76,7 @@ std::string unknown_section(const std::vector<CLI::App*>& commands, const CLI::C
   for (const CLI::App* other : commands) known.push_back(other->get_name());
   return fmt::format("found the section [{}], expected [{}]{}", fmt::join(item.parents, "."),
                      fmt::join(known, "], ["),
-                     did_you_mean(nearest_word(item.parents.front(), known), "[{}]"));
+                     did_you_mean(settings::nearest_word(item.parents.front(), known), "[{}]"));
 }
 
 /// The command that `item` is for: `command` itself, or the one whose section it stands in; none: there is no
