@@ -13,7 +13,7 @@
 #include "commands/command.h"
 #include "options/options_page.h"
 #include "options/setting_options.h"
-#include "settings/nearest_word.h"
+#include "options/settings_names.h"
 #include "shell/console.h"
 #include "shell/exit_codes.h"
 #include "shell/first_words.h"

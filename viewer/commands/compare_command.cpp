@@ -8,7 +8,7 @@
 #include "base/fail.h"
 #include "commands/command.h"
 #include "io/image.h"
-#include "settings/values.h"
+#include "options/settings_names.h"
 #include "shared/files_apart.h"
 #include "shared/flip.h"
 #include "shared/loaded_picture.h"

@@ -7,7 +7,7 @@
 #include "io/output_file.h"
 #include "options/memory_option.h"
 #include "options/scene_options.h"
-#include "settings/values.h"
+#include "options/settings_names.h"
 #include "shared/files_apart.h"
 #include "shell/console.h"
 #include "shell/memory_limit.h"

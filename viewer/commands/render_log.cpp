@@ -5,9 +5,8 @@
 #include "base/machine.h"
 #include "base/statistics.h"
 #include "commands/frame_budget.h"
+#include "options/settings_names.h"
 #include "parallel/parallel.h"
-#include "settings/choices.h"
-#include "settings/edit_texts.h"
 
 namespace tenebra::viewer {
 namespace {

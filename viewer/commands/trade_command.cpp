@@ -14,7 +14,7 @@
 #include "options/method_arguments.h"
 #include "options/raster_options.h"
 #include "options/scene_arguments.h"
-#include "settings/edit_texts.h"
+#include "options/settings_names.h"
 #include "shared/files_apart.h"
 #include "shell/console.h"
 #include "shell/memory_limit.h"

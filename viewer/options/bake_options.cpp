@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "base/fail.h"
-#include "settings/choices.h"
+#include "options/settings_names.h"
 
 namespace tenebra::viewer {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "io/input_file.h"
 #include "options/setting_options.h"
-#include "settings/nearest_word.h"
+#include "options/settings_names.h"
 #include "settings/rows.h"
 #include "shell/console.h"
 

@@ -7,7 +7,6 @@
 
 #include "options/setting_options.h"
 #include "options/settings_names.h"
-#include "settings/method_settings.h"
 
 namespace tenebra::viewer {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "base/fail.h"
+#include "options/settings_names.h"
 #include "session/aovs.h"
-#include "settings/choices.h"
 
 namespace tenebra::viewer {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "io/exr/exr_file.h"
+#include "options/settings_names.h"
 #include "render/renderer.h"
-#include "settings/output_pattern.h"
 #include "shell/command_line.h"
 
 namespace tenebra::viewer {

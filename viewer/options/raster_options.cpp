@@ -1,8 +1,7 @@
 #include "options/raster_options.h"
 
 #include "base/fail.h"
-#include "settings/choices.h"
-#include "settings/values.h"
+#include "options/settings_names.h"
 
 namespace tenebra::viewer {
 namespace {

@@ -9,7 +9,7 @@
 #include "options/method_options.h"
 #include "options/picture_options.h"
 #include "options/scene_options.h"
-#include "settings/output_pattern.h"
+#include "options/settings_names.h"
 
 namespace tenebra::viewer {
 

@@ -6,7 +6,7 @@
 
 #include "base/fail.h"
 #include "options/output_table.h"
-#include "settings/nearest_word.h"
+#include "options/settings_names.h"
 
 namespace tenebra::viewer {
 namespace {

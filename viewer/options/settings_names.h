@@ -7,6 +7,7 @@
 #include "settings/nearest_word.h"
 #include "settings/output_pattern.h"
 #include "settings/scene_settings.h"
+#include "settings/values.h"
 
 namespace tenebra::viewer {
 

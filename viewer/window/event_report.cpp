@@ -8,7 +8,7 @@
 
 #include "base/fail.h"
 #include "options/method_arguments.h"
-#include "settings/edit_texts.h"
+#include "options/settings_names.h"
 
 namespace tenebra::viewer {
 namespace {

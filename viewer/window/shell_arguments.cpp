@@ -6,7 +6,7 @@
 
 #include "options/method_arguments.h"
 #include "options/scene_arguments.h"
-#include "settings/edit_texts.h"
+#include "options/settings_names.h"
 
 namespace tenebra::viewer {
 namespace {

@@ -4,7 +4,7 @@
 #include "options/config_file.h"
 #include "options/memory_option.h"
 #include "options/raster_options.h"
-#include "settings/choices.h"
+#include "options/settings_names.h"
 
 namespace tenebra::viewer {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "options/method_options.h"
 #include "options/scene_options.h"
-#include "settings/output_pattern.h"
+#include "options/settings_names.h"
 #include "window/view_state.h"
 
 namespace tenebra::viewer {

@@ -4,8 +4,8 @@
 
 #include "base/machine.h"
 #include "options/method_arguments.h"
+#include "options/settings_names.h"
 #include "parallel/parallel.h"
-#include "settings/edit_texts.h"
 
 namespace tenebra::viewer {
 

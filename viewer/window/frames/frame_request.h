@@ -6,11 +6,11 @@
 #include <optional>
 
 #include "options/scene_options.h"
+#include "options/settings_names.h"
 #include "render/frame_lights.h"
 #include "render/log/frame_columns.h"
 #include "render/renderer.h"
 #include "session/staged_scene.h"
-#include "settings/output_pattern.h"
 #include "shared/picture_difference.h"
 #include "stage/edits/scene_edits.h"
 #include "window/motion/animation_clock.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "settings/choices.h"
+#include "options/settings_names.h"
 #include "window/frame_history.h"
 #include "window/frames/explainer.h"
 #include "window/frames/render_worker.h"
