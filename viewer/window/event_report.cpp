@@ -15,6 +15,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// Of the scene that is open; while none is, that of places as they stand.
+FileFrame file_frame(const ViewState& state) {
+  return state.scene ? state.scene->scene.frame : FileFrame{};
+}
+
 std::string dump(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -127,7 +132,7 @@ void EventReport::state(const ViewState& state) {
                                  {"loop", state.clock.loop()},
                                  {"fixed_step", state.clock.fixed_step()},
                                  {"camera", name_of(state.camera_mode)},
-                                 {"free", camera_arguments(state.free, state.scene->scene.frame)},
+                                 {"free", camera_arguments(state.free, file_frame(state))},
                                  {"active", state.active},
                                  {"a", method_arguments(state.slots[0])},
                                  {"b", method_arguments(state.slots[1])},
