@@ -52,6 +52,7 @@ std::string other_content(const fs::path& path) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream) return {};
   stream.read(first.data(), first.size());
+  if (stream.bad()) return {};  // the reader has the reason
   const std::string_view bytes(first.data(), static_cast<std::size_t>(stream.gcount()));
   if (bytes.empty()) return "found an empty file, expected a scene: copy it again";
   for (const std::string_view archive : {"PK\x03\x04", "Rar!", "7z\xBC\xAF", "\x1F\x8B"})

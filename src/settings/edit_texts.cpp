@@ -29,7 +29,7 @@ Expected<void> apply(const std::string& key, const std::string& value, stage::Li
   }
   if (key == "size") {
     const auto size = parse_light_size(value);
-    if (!size || size->percent)
+    if (!size || size->percent || size->size.x <= 0)
       return base::fail("found size={}, expected W or WxH in metres, like 0.5x0.3", value);
     edit.size_m = size->size;
     return {};

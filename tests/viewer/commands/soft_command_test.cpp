@@ -109,15 +109,15 @@ TEST(SoftCommand, EverySettingOfTheSolversDrawsTheSamePicture) {
   }
 }
 
-TEST(SoftCommand, SaysOnceWhichLightsKeepHardShadows) {
+TEST(SoftCommand, SaysOnceWhichSizeLightsWithoutOneGet) {
   const TemporaryFolder folder;
   const std::string scene = write_moving_scene(folder);
   const auto result = tenebra({"render", scene, "--shadows", "soft", "--frames", "0:2", "--size", "32x24",
                                "-o", "none", "--log", folder / "log.csv"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
-  EXPECT_TRUE(result.errors.starts_with("note: light 0")) << result.errors;
+  EXPECT_TRUE(result.errors.starts_with("note: point lights have no size")) << result.errors;
   EXPECT_EQ(result.errors.find("note: ", 1), std::string::npos) << result.errors;
-  EXPECT_NE(read_text(folder / "log.csv").find("# note: light 0"), std::string::npos);
+  EXPECT_NE(read_text(folder / "log.csv").find("# note: point lights have no size"), std::string::npos);
   const auto quiet =
       tenebra({"render", scene, "--shadows", "soft", "--size", "32x24", "-o", "none", "--quiet"});
   EXPECT_EQ(quiet.output + quiet.errors, "");

@@ -49,11 +49,17 @@ TEST(VerifyCommand, FindsTheFractionsOfLightsWithAnAreaRight) {
   const TemporaryFolder folder;
   const std::string scene = write_moving_scene(folder, 2);
   for (const char* precision : {"fast", "reference"}) {
-    const auto result =
-        tenebra({"verify", scene, "--shadows", "soft", "--set-light", "0 size=0.5", "--add-light",
-                 "directional direction=-0.2,-1,0.1 intensity=2", "--sun-size", "5", "--size", "80x60",
-                 "--samples", "400", "--paper", "soft-precision=" + std::string(precision), "--report",
-                 folder / "report.json", "--quiet"});
+    const auto result = tenebra({"verify",       scene,
+                                 "--shadows",    "soft",
+                                 "--set-light",  "0 size=0.5",
+                                 "--add-light",  "directional direction=-0.2,-1,0.1 intensity=2",
+                                 "--sun-size",   "5",
+                                 "--light-size", "0",
+                                 "--size",       "80x60",
+                                 "--samples",    "400",
+                                 "--paper",      "soft-precision=" + std::string(precision),
+                                 "--report",     folder / "report.json",
+                                 "--quiet"});
     EXPECT_EQ(result.exit_code, 0) << result.errors;
     EXPECT_TRUE(result.output.ends_with("\nwrong: 0\n")) << result.output;
     const auto json = nlohmann::json::parse(read_text(folder / "report.json"));
