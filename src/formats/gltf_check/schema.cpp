@@ -57,10 +57,11 @@ std::set<std::size_t> animated_nodes(const Json& root) {
 
 /// A node states its place once; what is stated beside it and moves nothing is dropped.
 void part_matrix_from_parts(Json& root, std::vector<std::string>& warnings) {
-  static const std::pair<const char*, Json> parts[] = {
-      {"translation", {0, 0, 0}}, {"rotation", {0, 0, 0, 1}}, {"scale", {1, 1, 1}}};
-  static const Json unit = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   if (!root.contains("nodes")) return;
+  // Not static: JSON takes memory where it is destroyed, which at the program's end may be lacking.
+  const std::pair<const char*, Json> parts[] = {
+      {"translation", {0, 0, 0}}, {"rotation", {0, 0, 0, 1}}, {"scale", {1, 1, 1}}};
+  const Json unit = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   const std::set<std::size_t> animated = animated_nodes(root);
   for (std::size_t i = 0; i < root["nodes"].size(); ++i) {
     Json& node = root["nodes"][i];
