@@ -110,6 +110,8 @@ void build_lights(Asset& asset);
 void build_meshes(Asset& asset);
 /// Makes the scene of that name, else of that number, the one that is shown; empty: the file's default.
 void choose_scene(Asset& asset, const std::string& wanted);
+/// The parent of each node of the file, or -1. Throws ImportFailure for a node with several.
+std::vector<int> find_parents(const Model& model);
 /// Nodes of the scene that is shown, parents first. Returns the scene's node of each node of the file, or -1.
 std::vector<int> build_nodes(Asset& asset);
 /// EXT_mesh_gpu_instancing of the file's node `index`: its mesh moves from the scene's node `self` to a
