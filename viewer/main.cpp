@@ -99,7 +99,7 @@ int parse_and_run(CLI::App& program, Run& run, const std::vector<std::string>& a
     tenebra::viewer::print_out("{}", program.help());
     return flush_output(0);
   } catch (const CLI::CallForAllHelp&) {
-    tenebra::viewer::print_out("{}", tenebra::viewer::paper_help(*program.get_subcommands().front()));
+    tenebra::viewer::print_out("{}", tenebra::viewer::further_help(*program.get_subcommands().front()));
     return flush_output(0);
   } catch (const CLI::CallForVersion& version) {
     tenebra::viewer::print_out("{}\n", version.what());

@@ -138,7 +138,7 @@ protected:
   void SetUp() override {
     // Kernels of a vector level run only where the processor has it.
     if (!simd_level_supported(GetParam()))
-      GTEST_SKIP() << "this machine lacks " << simd_level_name(GetParam());
+      GTEST_SKIP() << "this machine or this build lacks " << simd_level_name(GetParam());
   }
 };
 

@@ -159,7 +159,8 @@ class NodeTests : public ::testing::TestWithParam<SimdLevel> {};
 
 TEST_P(NodeTests, NeverRejectABlockerNorAcceptAGap) {
   // Kernels of a vector level run only where the processor has it.
-  if (!simd_level_supported(GetParam())) GTEST_SKIP() << "this machine lacks " << simd_level_name(GetParam());
+  if (!simd_level_supported(GetParam()))
+    GTEST_SKIP() << "this machine or this build lacks " << simd_level_name(GetParam());
   const shadow::TraversalKernels kernels = shadow::traversal_kernels(GetParam());
   for (const bool directional : {false, true}) {
     for (const double spread : {1e-6, 1e-4, 1e-2, 0.3, 1.0, 3.0, 30.0}) {

@@ -37,16 +37,18 @@ std::vector<std::string> options_in(const std::string& help) {
 
 TEST(Program, ExplainsEverySettingOfRender) {
   const std::string help = tenebra({"render", "--help"}).output,
-                    paper = tenebra({"render", "--help-paper"}).output;
+                    further = tenebra({"render", "--help-all"}).output;
   const auto expect = [&](const settings::About& about) {
-    const bool of_paper = about.audience == settings::Audience::paper;
-    const std::string name =
-        of_paper ? fmt::format("  {}=", about.name) : fmt::format("\n  --{} ", about.name);
-    EXPECT_EQ((of_paper ? paper : help).find(name) != std::string::npos,
+    const bool of_paper = about.audience == settings::Audience::paper,
+               is_further = about.audience != settings::Audience::user;
+    const std::string option = about.is_switch ? fmt::format("\n  --{}", about.name)
+                                               : fmt::format("\n  --{} ", about.name),
+                      name = of_paper ? fmt::format("  {}=", about.name) : option;
+    EXPECT_EQ((is_further ? further : help).find(name) != std::string::npos,
               settings::given_as(about) == fmt::format("--{} ", about.name) || of_paper)
         << about.name;
-    if (of_paper) {
-      EXPECT_EQ(help.find(fmt::format("\n  --{} ", about.name)), std::string::npos) << about.name;
+    if (is_further) {
+      EXPECT_EQ(help.find(option), std::string::npos) << about.name;
     }
   };
   for (const auto& setting : settings::scene_table()) expect(setting);
@@ -57,7 +59,17 @@ TEST(Program, ExplainsEverySettingOfRender) {
 TEST(Program, HelpOfRenderIsShort) {
   const std::vector<std::string> names = options_in(tenebra({"render", "--help"}).output);
   EXPECT_GT(names.size(), 40u);
-  EXPECT_LT(names.size(), 66u);
+  EXPECT_LT(names.size(), 60u);
+}
+
+TEST(Program, RareOptionsAreReadAndSuggestedAsOthersAre) {
+  const TemporaryFolder folder;
+  const auto result = tenebra({"render", write_moving_scene(folder), "--size", "16x12", "-o", "none",
+                               "--cast-all", "--cutout-limit", "5"});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(result.errors.find("--cast-all"), std::string::npos) << result.errors;
+  EXPECT_NE(tenebra({"render", "a.glb", "--cutout-limt", "5"}).errors.find("did you mean --cutout-limit?"),
+            std::string::npos);
 }
 
 TEST(Program, SuggestsTheNearestOption) {

@@ -64,7 +64,7 @@ std::string unknown_key(CLI::App& command, const CLI::ConfigItem& item) {
   std::vector<std::string> known;
   for (const CLI::Option* option : command.get_options())
     for (const std::string& name : option->get_lnames())
-      if (!option->get_group().empty() && option_of_key(command, name) != nullptr) known.push_back(name);
+      if (!is_outdated(*option) && option_of_key(command, name) != nullptr) known.push_back(name);
   return fmt::format("found the name '{}', expected the long name of an option of tenebra {}{}",
                      item.fullname(), command.get_name(),
                      did_you_mean(settings::nearest_word(item.name, known), "{}"));

@@ -88,11 +88,11 @@ std::string options_page() {
                             Group::ao, Group::output, Group::run}) {
     text += fmt::format("\n## {}\n{}", settings::group_title(group), table_head());
     for (const PageRow& row : rows)
-      if (row.about->group == group && row.about->audience == Audience::user && !is_key(*row.about))
+      if (row.about->group == group && row.about->audience != Audience::paper && !is_key(*row.about))
         text += line(row);
   }
   text +=
-      "\n## For the papers' experiments\n\n`--paper` may be repeated; `tenebra render --help-paper` lists "
+      "\n## For the papers' experiments\n\n`--paper` may be repeated; `tenebra render --help-all` lists "
       "these.\n" +
       table_head();
   for (const PageRow& row : rows)

@@ -49,6 +49,15 @@ std::vector<std::pair<const About*, CLI::Option*>> settings_by(CLI::App& command
   return found;
 }
 
+std::vector<std::pair<const About*, CLI::Option*>> rare_settings(CLI::App& command) {
+  std::vector<std::pair<const About*, CLI::Option*>> found;
+  for (CLI::Option* option : command.get_options(nullptr))
+    if (const About* about = about_of(setting_of(*option));
+        about != nullptr && about->audience == Audience::rare)
+      found.emplace_back(about, option);
+  return found;
+}
+
 [[noreturn]] void refuse(const std::string& name, const std::string& what) {
   throw CLI::ValidationError(name, what);
 }
@@ -72,13 +81,20 @@ void add_paper(CLI::App& command) {
   };
   command
       .add_option_function<std::vector<std::string>>(
-          paper_option, read,
-          "A setting for the papers' experiments, listed by\n--help-paper; may be repeated")
+          paper_option, read, "A setting for the papers' experiments, listed by\n--help-all; may be repeated")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE")
       ->group(title(Group::run));
   if (command.get_help_ptr() == nullptr) return;
-  command.set_help_all_flag("--help-paper", "List the settings of --paper")->group(title(Group::run));
+  command
+      .set_help_all_flag("--help-all,--help-paper", "List what is rarely needed, and the settings of --paper")
+      ->group(title(Group::run));
+}
+
+/// Where another page of help lists them.
+void hide_rare(CLI::App& command) {
+  if (command.get_help_all_ptr() == nullptr) return;
+  for (const auto& [about, option] : rare_settings(command)) option->group(hidden);
 }
 
 void link_needs(CLI::App& command) {
@@ -128,6 +144,7 @@ AddedOption add_setting(CLI::App& command, const About& about, const std::string
 
 void complete_settings(CLI::App& command) {
   add_paper(command);
+  hide_rare(command);
   link_needs(command);
 }
 
@@ -157,7 +174,9 @@ bool read_key(CLI::App& command, const std::string& option, const std::string& t
 }
 
 bool is_outdated(const CLI::Option& option) {
-  return option.get_group() == hidden && about_of(setting_of(option)) != nullptr;
+  const About* about = about_of(setting_of(option));
+  return option.get_group() == hidden && about != nullptr &&
+         settings::given_as(*about) != long_name(about->name) + " ";
 }
 
 std::string outdated_sentence(const std::string& name) {
@@ -184,7 +203,7 @@ bool is_quiet(const CLI::App& command) {
 std::string did_you_mean(const CLI::App& command) {
   std::vector<std::string> known;
   for (const CLI::Option* option : command.get_options())
-    if (option->get_group() != hidden)
+    if (!is_outdated(*option))
       for (const std::string& name : option->get_lnames()) known.push_back(name);
   for (const std::string& argument : command.remaining()) {
     if (!argument.starts_with("--")) continue;
@@ -194,15 +213,17 @@ std::string did_you_mean(const CLI::App& command) {
   return "";
 }
 
-std::string paper_help(CLI::App& command) {
-  std::string text = fmt::format(
-      "Settings for the papers' experiments: tenebra {} --paper KEY=VALUE, which may be repeated. The "
-      "defaults are the\n"
-      "better methods; pictures are the same with most of these.\n\n",
-      command.get_name());
+namespace {
+
+/// Names and helps in two columns.
+std::string help_rows(const std::vector<std::pair<const About*, CLI::Option*>>& settings,
+                      std::string_view before, std::string_view behind) {
   constexpr std::size_t column = 34;
-  for (const auto& [about, option] : settings_by(command, paper_option)) {
-    const std::string name = fmt::format("  {}={}", about->name, option->get_type_name());
+  std::string text;
+  for (const auto& [about, option] : settings) {
+    const std::string value =
+        option->get_expected_min() == 0 ? "" : fmt::format("{}{}", behind, option->get_type_name());
+    const std::string name = fmt::format("  {}{}{}", before, about->name, value);
     std::string help = option->get_description();
     for (std::size_t at = 0; (at = help.find('\n', at)) != std::string::npos; at += column + 1)
       help.insert(at + 1, column, ' ');
@@ -211,6 +232,18 @@ std::string paper_help(CLI::App& command) {
                  : fmt::format("{}\n{:{}}{}\n", name, "", column, help);
   }
   return text;
+}
+
+}  // namespace
+
+std::string further_help(CLI::App& command) {
+  return fmt::format(
+      "Rarely needed: tenebra {0} ...\n\n{1}\n"
+      "Settings for the papers' experiments: tenebra {0} --paper KEY=VALUE, which may be repeated. The "
+      "defaults are the\n"
+      "better methods; pictures are the same with most of these.\n\n{2}",
+      command.get_name(), help_rows(rare_settings(command), "--", " "),
+      help_rows(settings_by(command, paper_option), "", "="));
 }
 
 }  // namespace tenebra::viewer
