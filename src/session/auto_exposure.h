@@ -24,7 +24,8 @@ struct Meter {
 /// where nothing is seen.
 Expected<Meter> meter(const StagedScene& staged, const settings::SceneSettings& settings);
 
-/// Its exposures: those that --exposure auto stands for.
+/// Its exposures: those that --exposure auto stands for after edits. Where a grey sky was added beside lamps,
+/// stage_scene measures without it and takes one step off instead: both differ by a step at most.
 Expected<settings::AutoExposures> meter_exposures(const StagedScene& staged,
                                                   const settings::SceneSettings& settings);
 

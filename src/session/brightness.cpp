@@ -14,12 +14,13 @@ namespace {
 using settings::SceneSettings;
 using stage::Sky;
 
-/// What white shows where it faces the sky of a scene whose brightness is measured.
+/// What white shows where it faces the sky of a scene whose brightness is measured, before the step below.
 constexpr float shown_sky = 0.15f;
 /// Steps by which that sky takes an exposure down. What was shown at the limit of 0.95 was 1.672 before the
 /// neutral tone; (1.672 + 0.15) / 2^(1/8) is less.
 constexpr int steps_of_sky = 1;
 
+/// As the first clip begins, which decides what is added.
 bool any_mesh_shines(const Scene& scene) {
   const bool emissive = std::any_of(scene.materials.begin(), scene.materials.end(),
                                     [](const Material& m) { return m.emissive != glm::vec3(0.0f); });
@@ -64,6 +65,7 @@ Sky wanted_sun(const SceneSettings& settings, const Scene& scene, bool environme
 }
 
 Expected<void> settle_brightness(const SceneSettings& settings, bool stated, StagedScene& staged) {
+  if (!settings.shows) return {};
   const bool units = !stated && has_units(staged.scene);
   const bool sky =
       settings.sky == Sky::soft || (settings.sky == Sky::automatic && units && !staged.environment);
@@ -80,7 +82,7 @@ Expected<void> settle_brightness(const SceneSettings& settings, bool stated, Sta
   display.needs_exposure = automatic && (units || !metered->one_will_do);
   if (display.needs_exposure)
     staged.scene.warnings.push_back(fmt::format(
-        "{}: pictures are exposed by {:.3g} (--exposure sets another factor).",
+        "{}: pictures are exposed by {:.3g} with the neutral tone (--exposure sets another factor).",
         units ? "The scene's lights have units" : "An exposure of 1 would show too much or too little",
         (*display.exposures)[tone]));
   return {};

@@ -16,10 +16,11 @@ bool has_units(const Scene& scene);
 stage::Sky wanted_sun(const settings::SceneSettings& settings, const Scene& scene, bool environment);
 
 /// Lights what lamps with units do not reach, where the file states no surroundings (Sky::automatic), or
-/// any scene (Sky::soft): by a grey sky that shows 0.15 where white faces it. Then sets the exposure of
+/// any scene (Sky::soft): by a grey sky that shows 0.14 where white faces it. Then sets the exposure of
 /// scenes whose brightness is not known: of lights with units, and of lights and environments of the user's
 /// with which an exposure of 1 shows too much or too little. Files that state their surroundings are shown as
-/// they state. Says both in scene.warnings. `stated`: the file's own surroundings, before light was added.
+/// they state. Nothing where nothing is shown (SceneSettings::shows). Says both in scene.warnings. `stated`:
+/// the file's own surroundings, before light was added.
 Expected<void> settle_brightness(const settings::SceneSettings& settings, bool stated, StagedScene& staged);
 
 }  // namespace tenebra::session

@@ -92,7 +92,6 @@ Expected<StagedScene> read(const SceneSettings& settings) {
   if (!stage::leave_out_casters(staged.scene, settings.no_cast, unmatched)) {
     return base::fail("--no-cast: {} names no mesh, material or FILE:LINE of the scene", unmatched);
   }
-  if (settings.transfer) staged.scene.transfer = *settings.transfer;
   staged.fps = settings.fps;
   if (settings.environment.empty()) return staged;
   auto picture = read_environment(settings.environment);
@@ -154,6 +153,7 @@ Expected<StagedScene> stage_scene(const SceneSettings& settings, Staging staging
   if (auto checked = stage::check_edits(settings.edits, scene); !checked)
     return tl::unexpected(checked.error());
   if (auto chosen = choose_view(settings, *staged); !chosen) return tl::unexpected(chosen.error());
+  if (settings.transfer) scene.transfer = *settings.transfer;  // until here it says what the file is
   staged->display.transfer = scene.transfer;
   if (auto settled = settle_brightness(settings, stated, *staged); !settled)
     return tl::unexpected(settled.error());

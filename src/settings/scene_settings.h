@@ -27,6 +27,7 @@ struct SceneSettings {
 
   bool meter_exposure = false;   ///< a method asks for --exposure auto
   bool exposure_given = false;   ///< all methods have an exposure of their own
+  bool shows = true;             ///< something is drawn that light and exposure change; false: masks alone
   bool emissive_lights = false;  ///< a method makes lights of emissive meshes
 
   std::optional<double> time_s;

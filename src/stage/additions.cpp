@@ -29,7 +29,8 @@ std::string in_file(const FileFrame& frame, const glm::dvec3& place) {
                              : fmt::format("{:.3f}, {:.3f}, {:.3f}", p.x, p.y, p.z);
 }
 
-void add_camera(Scene& scene, const Framing& framing, bool own_shape) {
+/// Returns what is to be said of it.
+std::string add_camera(Scene& scene, const Framing& framing, bool own_shape) {
   Camera camera;
   camera.name = "added";
   camera.vertical_fov_rad = framing.vertical_fov_rad;
@@ -41,12 +42,13 @@ void add_camera(Scene& scene, const Framing& framing, bool own_shape) {
   node.rotation = glm::quat_cast(framing.basis);
   node.camera = static_cast<int>(scene.cameras.size());
   scene.cameras.push_back(camera);
-  scene.warnings.push_back(fmt::format(
+  std::string said = fmt::format(
       "The scene has no camera; one was added at {}{}. At the start the scene fills {:.0f} % of its "
       "picture.",
       in_file(scene.frame, node.translation), framing.lamp ? ", in the closed room that it is" : "",
-      100 * framing.subject_share));
+      100 * framing.subject_share);
   scene.nodes.push_back(std::move(node));
+  return said;
 }
 
 /// To the right of the first placed camera, at the start.
@@ -111,8 +113,9 @@ AddedParts add_missing_parts(Scene& scene, const Additions& wish) {
   added.floor_y = subject.low.y - 1e-3 * subject.radius_m();
   if (added.camera) {
     const auto shadow = floor ? std::optional(added.floor_y) : std::nullopt;
-    add_camera(scene, room ? *room : frame_subject(subject, shadow, wish.aspect), !wish.aspect);
-    if (!wish.for_pictures) scene.warnings.pop_back();
+    std::string said =
+        add_camera(scene, room ? *room : frame_subject(subject, shadow, wish.aspect), !wish.aspect);
+    if (wish.for_pictures) scene.warnings.push_back(std::move(said));
   }
   if (added.lamp) add_lamp(scene, *room->lamp);
   if (!added.light || added.lamp) return added;

@@ -32,7 +32,7 @@ struct AddedParts {
   bool light = false;         ///< a sun and the light of a sky, or a lamp and ambient light
   bool lamp = false;          ///< the light is a lamp in a closed room
   bool floor = false;         ///< a floor to catch the shadow
-  double floor_y = 0;         ///< its height
+  double floor_y = 0;         ///< its height, metres in the scene's coordinates
   bool sky = false;           ///< ambient light alone, beside the scene's lights (session/brightness.h)
   std::size_t own_nodes = 0;  ///< of the scene before
   glm::vec3 own_ambient{0.0f}, own_background{0.0f};  ///< the scene's before
@@ -49,10 +49,12 @@ struct AddedParts {
 ///   degrees high would end. It casts none.
 AddedParts add_missing_parts(Scene& scene, const Additions& wish = {});
 
-/// The scene without what was added, but for a floor.
+/// The scene without what was added, but for a floor. To be called while the added nodes and lights are the
+/// last.
 void remove_added(const AddedParts& added, Scene& scene);
 
-/// Drops the triangles of the added floor, the last mesh, from a frame that is seen from a height below it.
+/// Drops the triangles of the added floor, the last mesh, from a frame that is seen from below it: from the
+/// height `eye_y`, metres in the scene's coordinates.
 void hide_floor_from_below(const AddedParts& added, double eye_y, FrameGeometry& frame);
 
 /// Adds a camera that sees everything in a square picture, and a sun with the light of a soft sky, where the

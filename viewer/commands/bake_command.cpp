@@ -63,6 +63,7 @@ Expected<double> moment(const BakeOptions& options, const session::StagedScene& 
 Expected<Baking> prepare(const BakeOptions& options) {
   SceneOptions of_scene = options.scene;
   of_scene.exposure_given = true;
+  of_scene.shows = options.content == BakeContent::both && !options.ambient;  // the sky's ambient light
   if (options.content == BakeContent::ao) of_scene.sky = stage::Sky::none;
   auto staged = session::stage_scene(of_scene, session::Staging::for_light);
   if (!staged) return tl::unexpected(staged.error());

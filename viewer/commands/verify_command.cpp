@@ -231,6 +231,7 @@ Expected<int> verify(const VerifyOptions& options) {
   StopSignals stop(options.render.timeout_s, StopSignals::Start::at_once);
   RenderOptions render = options.render;
   render.scene.import.keep_unrounded = true;
+  render.scene.shows = false;
   const auto plan = plan_render(render);
   if (!plan) return tl::unexpected(plan.error());
   if (plan->settings.shadows == render::ShadowMode::none)

@@ -157,6 +157,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
 
 void settle_render_options(RenderOptions& options) {
   settle_picture_options(options.pictures);
+  options.scene.shows = options.pictures.files || options.pictures.to_pipe || !options.error_maps.empty();
   const bool masks = !options.masks.empty() || !options.mask_colours.empty() || !options.mask_means.empty() ||
                      !options.mask_samples.empty() || !options.error_maps.empty();
   if (masks && !options.method.terminator) options.method.terminator = render::Terminator::flat;
