@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-folders=(base io math parallel points scene texture stage visibility shadow soft tint ao query shade)
+folders=(base io math parallel trees points scene texture stage visibility shadow soft tint ao query shade)
 # Those that take many seconds each: exact answers for whole masks, catalogues, soups, whole frames; and parts of times,
 # which are others without optimisation.
 slow='ShadowMask\.|NodeTests|SoftCatalogue|SoftCloud|Oracle|Exact|EverySoup|StaysWholeWhenKilled|SoftMetamorphic|SoftError\.|^Sun\.(Agrees|Has)'

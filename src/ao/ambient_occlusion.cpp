@@ -151,7 +151,7 @@ void AmbientOcclusion::State::begin_frame(const Scene& scene, const FrameGeometr
 }
 
 void AmbientOcclusion::State::note_deforming(const AoConfig& config) {
-  if (config.mode != AoMode::field && config.deforming) return;
+  if (config.mode == AoMode::rays || (config.mode == AoMode::adaptive && config.deforming)) return;
   for (const std::string& name : objects.deforming_names) {
     if (std::find(noted.begin(), noted.end(), name) != noted.end()) continue;
     noted.push_back(name);

@@ -36,7 +36,7 @@ void Lighter::note_changed_groups(const SoftShadowConfig& config, std::vector<st
   const std::size_t most = together ? *config.memory_bytes : config.tree_bytes;
   notes.push_back(fmt::format(
       "Some groups of points were clipped in place of the BSP, whose trees would have outgrown {} MB "
-      "({}). The picture is the same, and the log counts the groups; a larger --memory soft:gives "
+      "({}). The picture is the same, and the log counts the groups; a larger --memory soft:MB gives "
       "trees more.",
       most >> 20, together ? "for all that soft shadows hold" : "each"));
 }

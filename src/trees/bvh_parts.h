@@ -20,7 +20,8 @@ inline double half_area(const math::Box<float>& box) {
 /// Whether a tree holds the triangle; then, in `box`, its box.
 inline bool bvh_holds(std::span<const glm::vec3> positions, const glm::uvec3& t, BvhHolds holds,
                       math::Box<float>& box) {
-  constexpr float largest_coordinate = 1e18f;
+  // With `all`, nothing is decided by products of coordinates.
+  const float largest_coordinate = holds == BvhHolds::all ? std::numeric_limits<float>::max() : 1e18f;
   if (std::max({t.x, t.y, t.z}) >= positions.size()) return false;
   const glm::vec3 a = positions[t.x], b = positions[t.y], c = positions[t.z];
   for (const glm::vec3& p : {a, b, c})

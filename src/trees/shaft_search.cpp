@@ -19,8 +19,9 @@ using Float8 = Pack<float, bvh_width>;
 
 // Bits of the boxes, by their planes as in a node, that may meet the shaft.
 SIMD_INLINE std::uint32_t boxes_met(const float (*planes)[bvh_width], const FloatShaft& shaft) {
-  Mask<float, bvh_width> apart = lt(broadcast<Float8>(shaft.high[0]), load<Float8>(planes[0]));
-  for (int axis = 0; axis < 3; ++axis) {
+  Mask<float, bvh_width> apart = lt(broadcast<Float8>(shaft.high[0]), load<Float8>(planes[0])) |
+                                 lt(load<Float8>(planes[3]), broadcast<Float8>(shaft.low[0]));
+  for (int axis = 1; axis < 3; ++axis) {
     apart = apart | lt(broadcast<Float8>(shaft.high[axis]), load<Float8>(planes[axis])) |
             lt(load<Float8>(planes[3 + axis]), broadcast<Float8>(shaft.low[axis]));
   }

@@ -6,13 +6,14 @@ namespace tenebra::ao {
 
 void PresampledOcclusion::reset(const SceneObjects& objects) {
   occluders_.reset(objects);
-  bodies_.reset(objects, reach_);
+  fresh_ = true;
 }
 
 void PresampledOcclusion::begin_frame(const AoConfig& config, double reach, const RayKernels& kernels,
                                       const StopFlag* stop) {
   constexpr std::size_t megabyte = std::size_t{1} << 20;
-  if (reach != reach_) bodies_.reset(casters_.objects(), reach);
+  if (fresh_ || reach != reach_) bodies_.reset(casters_.objects(), reach);
+  fresh_ = false;
   reach_ = reach;
   kernels_ = kernels;
   stop_ = stop;
@@ -53,7 +54,7 @@ void PresampledOcclusion::end_frame(AoStats& stats, std::vector<std::string>& no
     noted_memory_ = true;
     notes.push_back(
         fmt::format("A frame's fields and surface samples found no room within {} MB: rays are cast for "
-                    "bodies without room, which takes longer; --memory ao:gives more.",
+                    "bodies without room, which takes longer; --memory ao:MB gives more.",
                     memory_mb_));
   }
   for (std::string& note : occluders_.fields().take_notes()) notes.push_back(std::move(note));

@@ -42,6 +42,7 @@ private:
   RayKernels kernels_;
   const StopFlag* stop_ = nullptr;
   double reach_ = 0;
+  bool fresh_ = false;       ///< the objects were found anew
   std::uint64_t frame_ = 0;  ///< counts begin_frame()
   int memory_mb_ = 0;
   bool noted_memory_ = false;
