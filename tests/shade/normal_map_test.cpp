@@ -193,11 +193,14 @@ TEST_F(NormalMap, AllVectorLevelsGiveTheSameBits) {
   m.model = SurfaceModel::metallic_roughness;
   m.occlusion_map.image = 0;
   m.specular_share_map.image = 0;
-  for (const SimdLevel level : {SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512})
-    if (simd_level_supported(level)) {
-      EXPECT_EQ(shaded(sun({0.3f, 0.5f, 0.6f}), vec3(0.2f), -1, level),
-                shaded(sun({0.3f, 0.5f, 0.6f}), vec3(0.2f)));
-    }
+  std::vector<shade::DrawnLight> area = sun({0.3f, 0.5f, 0.6f});
+  area[0].area = make_sun(vec3(0.3f, 0.5f, 0.6f), 3.0).value();
+  for (const SimdLevel level : {SimdLevel::scalar, SimdLevel::sse4, SimdLevel::avx2, SimdLevel::avx512}) {
+    if (!simd_level_supported(level)) continue;
+    EXPECT_EQ(shaded(sun({0.3f, 0.5f, 0.6f}), vec3(0.2f), -1, level),
+              shaded(sun({0.3f, 0.5f, 0.6f}), vec3(0.2f)));
+    EXPECT_EQ(shaded(area, vec3(0.2f), 0.3f, level), shaded(area, vec3(0.2f), 0.3f));
+  }
 }
 
 }  // namespace
