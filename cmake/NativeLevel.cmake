@@ -1,6 +1,6 @@
-# tenebra_levels_above_scalar(<others>): the vector levels that a build for this machine alone leaves out, as Highway's
+# tenebra_levels_left_out(<others>): the vector levels that a build for this machine alone leaves out, as Highway's
 # HWY_DISABLED_TARGETS takes them: all but the best one that /proc/cpuinfo names. Where it names none, nothing is left out.
-function(tenebra_levels_above_scalar others)
+function(tenebra_levels_left_out others)
   set(${others} "" PARENT_SCOPE)
   if(NOT EXISTS /proc/cpuinfo)
     return()

@@ -7,6 +7,8 @@
 #include <map>
 #include <vector>
 
+#include "scene/map_tangent.h"
+
 namespace tenebra::stage {
 namespace {
 
@@ -66,10 +68,9 @@ struct TangentSums {
     const dvec3 e1(dvec3(mesh.positions[t.y]) - dvec3(mesh.positions[t.x])),
         e2(dvec3(mesh.positions[t.z]) - dvec3(mesh.positions[t.x]));
     const dvec2 second = place(t.y) - place(t.x), third = place(t.z) - place(t.x);
-    const double area = second.x * third.y - third.x * second.y;
-    const dvec3 along = unit((area < 0 ? -1.0 : 1.0) * (third.y * e1 - second.y * e2)),
-                wound = glm::cross(e1, e2);
-    if (area == 0 || !std::isfinite(area) || along == dvec3(0.0)) return;
+    const glm::dvec4 own = scene::map_tangent(e1, e2, second, third);
+    const dvec3 along(own), wound = glm::cross(e1, e2);
+    if (along == dvec3(0.0)) return;
     for (int k = 0; k < 3; ++k) {
       const dvec3 normal(mesh.normals[t[k]]), here(mesh.positions[t[k]]);
       const auto within = [&](const dvec3& v) { return unit(v - glm::dot(v, normal) * normal); };
@@ -77,7 +78,7 @@ struct TangentSums {
                                      within(dvec3(mesh.positions[t[(k + 2) % 3]]) - here));
       Sum& sum = sums[first[t[k]]];
       sum.along += std::acos(std::clamp(cosine, -1.0, 1.0)) * within(along);
-      ((glm::dot(normal, wound) < 0) == (area < 0) ? sum.left : sum.right) = true;
+      ((glm::dot(normal, wound) < 0) == (own.w > 0) ? sum.left : sum.right) = true;
     }
   }
 };

@@ -53,6 +53,14 @@ TEST_P(ColourPasses, AreTheCpusForAllSurfacesAndLights) {
   }
 }
 
+TEST_P(ColourPasses, AreTheCpusWithTextures) {
+  RandomScene scene(8), parallel(9, true);
+  for (RandomScene* each : {&scene, &parallel}) {
+    each->add_textures(false);
+    expect_alike(passes(), *each, each->samples(), "textures", 1.0, 1e-4f);
+  }
+}
+
 // On small triangles places on textures differ by the roundings of floats, which normals of noise make larger
 // at glossy samples: with all other maps alone no more than one sample of 1,000 is apart.
 TEST_P(ColourPasses, AreTheCpusWithTexturesAndNormalMaps) {

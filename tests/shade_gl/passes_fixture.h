@@ -58,7 +58,7 @@ struct RandomScene {
   }
 
   /// Textures of all kinds on its surfaces, with tangents at some vertices.
-  void add_textures();
+  void add_textures(bool normal_maps = true);
   /// What the pixels of a picture see.
   std::vector<std::uint32_t> ids_seen(int columns, int rows) const;
 
@@ -126,7 +126,7 @@ inline void RandomScene::add_materials() {
   surfaces = shade::SurfaceTable(std::span<const Material>(materials));
 }
 
-inline void RandomScene::add_textures() {
+inline void RandomScene::add_textures(bool normal_maps) {
   Scene scene;
   Mesh mesh;
   mesh.positions = geometry.positions;
@@ -148,7 +148,8 @@ inline void RandomScene::add_textures() {
     TextureMap map{.image = 0, .transform = {0.5f, 0.25f, -0.25f, 0.5f, 0.1f, 0.2f}};
     m.base_color_map = m.occlusion_map = m.specular_share_map = map;
     map.transform = {-1, 0, 0, 1, 0, 0};
-    m.normal_map = m.exponent_map = m.metallic_roughness_map = map;
+    m.exponent_map = m.metallic_roughness_map = map;
+    if (normal_maps) m.normal_map = map;
     m.specular_map.image = 1;
     m.normal_scale = number(0, 1);
     m.occlusion_strength = number(0, 1);

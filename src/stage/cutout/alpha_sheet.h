@@ -9,6 +9,10 @@
 
 namespace tenebra::stage {
 
+/// Where alpha changes from one square to the next it does so over twice this, in pixels: outlines run along
+/// the pixels' edges no farther from them, and do not touch where pixels meet at a corner.
+inline constexpr double edge_width = 1.0 / 128;
+
 /// Alpha of a picture's pixels, 0 to 255, or of a smaller copy of it. Level 0 is the picture; each further
 /// one is half as wide and high (rounded up), its pixels the means of up to four.
 struct AlphaGrid {
@@ -18,10 +22,6 @@ struct AlphaGrid {
   bool in_squares = false;   ///< a place has the alpha of the pixel that it lies in, not one between pixels
 };
 AlphaGrid alpha_of(const TextureImage& image, Filter filter);
-
-/// Where alpha changes from one square to the next it does so over twice this, in pixels: outlines run along
-/// the pixels' edges no farther from them, and do not touch where pixels meet at a corner.
-constexpr double edge_width = 1.0 / 128;
 AlphaGrid half_of(const AlphaGrid& grid);
 
 /// Values where grid lines cross, bilinear between them. Coordinates are in pixels of the grid, (0,0) the
