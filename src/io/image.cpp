@@ -1,7 +1,9 @@
 #include "io/image.h"
 
 #include <stb/stb_image.h>
+#include <stb/stb_image_write.h>
 
+#include <algorithm>
 #include <bit>
 #include <cerrno>
 #include <cstring>
@@ -21,6 +23,7 @@ namespace tenebra::io {
 namespace {
 
 constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28;
+constexpr int most_jpeg_side = 65'535;
 constexpr std::uint64_t most_file_bytes = std::uint64_t{1} << 30;
 
 template <class T>
@@ -65,6 +68,21 @@ const stbi_uc* as_stb(std::string_view bytes) {
   return reinterpret_cast<const stbi_uc*>(bytes.data());
 }
 
+/// What stb_image_write has made so far. Exceptions must not pass through it.
+struct JpegBytes {
+  std::string bytes;
+  bool no_memory = false;
+};
+
+void add_bytes(void* to, void* data, int size) {
+  auto& out = *static_cast<JpegBytes*>(to);
+  try {
+    if (!out.no_memory) out.bytes.append(static_cast<const char*>(data), static_cast<std::size_t>(size));
+  } catch (const std::bad_alloc&) {
+    out.no_memory = true;
+  }
+}
+
 /// Why stb_image gave up. Where it was for lack of memory, throws: the picture may be whole. No reason is
 /// stated where its own thread-local state had no memory.
 std::string_view reason_of_stb() {
@@ -88,6 +106,21 @@ Expected<void> write_png(const std::filesystem::path& path, const Image8& image)
   const auto bytes = encode_png(image);
   if (!bytes) return base::fail("cannot write {}: {}", path.string(), bytes.error().message);
   return write_file(path, *bytes);
+}
+
+Expected<void> write_jpeg(const std::filesystem::path& path, const Image8& image) {
+  constexpr int quality = 95;  // of 100; above 90 colours have the resolution of brightness
+  if ((image.channels != 1 && image.channels != 3) || !has_consistent_size(image) ||
+      std::max(image.width, image.height) > most_jpeg_side)
+    return base::fail(
+        "cannot write {}: found {} x {} pixels of {} channels, expected at most {} a side, of 1 or 3",
+        path.string(), image.width, image.height, image.channels, most_jpeg_side);
+  JpegBytes out;
+  const bool encoded = stbi_write_jpg_to_func(add_bytes, &out, image.width, image.height, image.channels,
+                                              image.pixels.data(), quality) != 0;
+  if (out.no_memory) throw std::bad_alloc();
+  if (!encoded) return base::fail("cannot write {}: its pixels cannot be encoded", path.string());
+  return write_file(path, out.bytes);
 }
 
 bool is_png_or_jpeg(std::string_view bytes) {

@@ -27,6 +27,9 @@ using ImageF = Image<float>;         ///< linear values
 
 /// Writes an 8-bit PNG (1, 3 or 4 channels), whole or not at all (see write_file).
 Expected<void> write_png(const std::filesystem::path& path, const Image8& image);
+/// Writes a JPEG (1 or 3 channels) of a quality whose loss is hard to see, whole or not at all; at most
+/// 65,535 pixels a side.
+Expected<void> write_jpeg(const std::filesystem::path& path, const Image8& image);
 /// Reads an 8-bit PNG as stored (1 to 4 channels). Refuses what is not a PNG and more than 2^28 pixels.
 Expected<Image8> read_png(const std::filesystem::path& path);
 /// Reads a Radiance picture (.hdr; RGBE or XYZE, pixels in any order, in runs or not): three linear channels,

@@ -51,9 +51,10 @@ Expected<OutputPattern> OutputPattern::parse_picture(const std::string& text) {
     return pipe;
   }
   if (text.ends_with(".exr")) return parse_stem(text, ".exr");
-  if (text.ends_with(".png")) return parse_stem(text, ".png");
-  return base::fail("found {}, expected a name that ends in .png or .exr, like out/%04d.png, or - or none",
-                    text);
+  for (const std::string_view extension : {".png", ".jpg", ".jpeg"})
+    if (text.ends_with(extension)) return parse_stem(text, extension);
+  return base::fail(
+      "found {}, expected a name that ends in .png, .jpg or .exr, like out/%04d.png, or - or none", text);
 }
 
 Expected<OutputPattern> OutputPattern::parse_mask(const std::string& text) {
@@ -94,7 +95,7 @@ Expected<void> OutputPattern::prepare_folder() const {
   const fs::path folder = file(0).parent_path();
   std::error_code error;
   if (folder.empty() || fs::is_directory(folder, error)) return {};
-  fs::create_directory(folder, error);
+  fs::create_directories(folder, error);
   if (error)
     return base::fail("cannot make the folder {} for {}: {}", folder.string(), text_, error.message());
   if (!fs::is_directory(folder))

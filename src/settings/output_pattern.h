@@ -15,7 +15,7 @@ class OutputPattern {
 public:
   /// Refuses other conversions, two numbers, and names that do not end in .png.
   static Expected<OutputPattern> parse(const std::string& text);
-  /// The same for names that end in .png or .exr, and for "-", which is standard output.
+  /// The same for names that end in .png, .jpg, .jpeg or .exr, and for "-", which is standard output.
   static Expected<OutputPattern> parse_picture(const std::string& text);
   /// The same for names that end in .png or .pfm.
   static Expected<OutputPattern> parse_mask(const std::string& text);
@@ -23,12 +23,12 @@ public:
   bool is_numbered() const { return digits_ >= 0; }
   bool is_pfm() const { return extension_ == ".pfm"; }
   bool is_exr() const { return extension_ == ".exr"; }
+  bool is_jpeg() const { return extension_ == ".jpg" || extension_ == ".jpeg"; }
   bool is_pipe() const { return extension_.empty(); }
   const std::string& text() const { return text_; }
   /// Name for `frame`, with `suffix` before the extension.
   std::filesystem::path file(int frame, std::string_view suffix = "") const;
-  /// Makes the folder of the files if only that last folder is missing, so that a mistyped path does not grow
-  /// a tree of folders. Fails if it cannot be made or is no folder.
+  /// Makes the folder of the files, and those that it lies in. Fails if it cannot be made or is no folder.
   Expected<void> prepare_folder() const;
 
 private:

@@ -218,5 +218,30 @@ TEST(Pfm, RefusesToWriteWhatIsNoPicture) {
   EXPECT_TRUE(folder.names().empty());
 }
 
+TEST(Jpeg, HoldsAPictureOfGradients) {
+  io::Image8 image{64, 48, 3, {}};
+  for (int y = 0; y < 48; ++y)
+    for (int x = 0; x < 64; ++x)
+      for (const int level : {4 * x, 5 * y, 255 - 4 * x})
+        image.pixels.push_back(static_cast<std::uint8_t>(level));
+  const TemporaryFolder folder;
+  ASSERT_TRUE(io::write_jpeg(folder / "a.jpg", image).has_value());
+  const auto read = io::decode_rgba(read_text(folder / "a.jpg"));
+  ASSERT_TRUE(read.has_value()) << read.error().message;
+  ASSERT_EQ(read->width, 64);
+  ASSERT_EQ(read->height, 48);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    ASSERT_NEAR(read->pixels[i / 3 * 4 + i % 3], image.pixels[i], 6) << i;
+}
+
+TEST(Jpeg, RefusesWhatItCannotHold) {
+  const TemporaryFolder folder;
+  EXPECT_FALSE(io::write_jpeg(folder / "a.jpg", {2, 1, 4, {1, 2, 3, 4, 5, 6, 7, 8}}).has_value());
+  EXPECT_FALSE(
+      io::write_jpeg(folder / "a.jpg", {65'536, 1, 1, std::vector<std::uint8_t>(65'536)}).has_value());
+  EXPECT_FALSE(io::write_jpeg(folder / "a.jpg", {3, 1, 1, {1, 2}}).has_value());
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.jpg"));
+}
+
 }  // namespace
 }  // namespace tenebra

@@ -35,7 +35,8 @@ protected:
   }
 
   static void expect_verified(const std::string& file) {
-    EXPECT_EQ(tenebra({"verify", cases / file, "--size", "80x60", "--raster", "cpu", "--quiet"}).exit_code, 0) << file;
+    EXPECT_EQ(tenebra({"verify", cases / file, "--size", "80x60", "--raster", "cpu", "--quiet"}).exit_code, 0)
+        << file;
   }
 
   static Json info(const std::string& file) {
@@ -44,8 +45,8 @@ protected:
 
   /// What render says beside its pictures.
   std::string said(const std::string& file, std::vector<std::string> more = {}) {
-    more.insert(more.begin(),
-                {"render", cases / file, "-o", folder_ / "p.png", "--frames", "0", "--size", "80x60", "--raster", "cpu"});
+    more.insert(more.begin(), {"render", cases / file, "-o", folder_ / "p.png", "--frames", "0", "--size",
+                               "80x60", "--raster", "cpu"});
     const auto result = tenebra(more);
     EXPECT_EQ(result.exit_code, 0) << file << ": " << result.errors;
     return result.errors;

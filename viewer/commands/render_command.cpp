@@ -217,11 +217,15 @@ std::FILE* messages_of(const RenderOptions& options) {
 void print_summary(const RenderPlan& plan, const RenderOptions& options, std::span<const TimedFrame> frames,
                    std::size_t done_before) {
   std::FILE* const stream = messages_of(options);
-  write_text(stream, summary_table(frames));
-  std::string text = fmt::format("{} of {} frames, {}x{} pixels", frames.size(), plan.frames.size(),
-                                 plan.settings.width, plan.settings.height);
+  const bool still = plan.frames.size() == 1 && frames.size() == 1;
+  if (!still) write_text(stream, summary_table(frames));
+  const std::string size = fmt::format("{}x{} pixels", plan.settings.width, plan.settings.height);
+  std::string text = still ? fmt::format("{} in {:.0f} ms", size, frames[0].timings.total_ms)
+                           : fmt::format("{} of {} frames, {}", frames.size(), plan.frames.size(), size);
   if (done_before > 0) text += fmt::format(", {} were done before", done_before);
-  if (options.pictures.files) text += fmt::format(", pictures in {}", options.pictures.files->text());
+  if (const auto& files = options.pictures.files)
+    text += still ? fmt::format(", picture in {}", files->file(plan.frames[0].frame).string())
+                  : fmt::format(", pictures in {}", files->text());
   for (const OutputPattern& mask : options.masks) text += fmt::format(", masks in {}", mask.text());
   for (const OutputPattern& mask : options.mask_colours)
     text += fmt::format(", coloured masks in {}", mask.text());

@@ -156,6 +156,7 @@ Expected<void> RenderOutput::write_pictures(const PlannedFrame& frame,
   if (options_.pictures.to_pipe) return write_to_pipe(result.image);
   if (!options_.pictures.files) return {};
   const fs::path file = options_.pictures.files->file(frame.frame);
+  if (options_.pictures.files->is_jpeg()) return io::write_jpeg(file, result.image);
   if (!options_.pictures.are_exr()) return io::write_png(file, result.image);
   const auto bytes = exr_of_frame(plan_, options_, identity_, frame, result);
   if (!bytes) return base::fail("cannot write {}: {}", file.string(), bytes.error().message);

@@ -72,7 +72,7 @@ settings::Setting<RenderOptions> output() {
     return {options.pictures.files ? options.pictures.files->text() : "none"};
   };
   return OutputRow::own({.name = "output",
-                         .value = "FILE.png|FILE.exr|-",
+                         .value = "FILE.png|.jpg|.exr|-",
                          .help = "Names of the pictures; %04d or #### is the frame. .exr: OpenEXR with "
                                  "linear colours; -: to standard output, for a pipe; none: no pictures",
                          .affects = Affects::files,

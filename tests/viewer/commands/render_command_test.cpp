@@ -70,6 +70,17 @@ TEST(RenderCommand, DrawsOneFrameToItsDefaultPlace) {
   EXPECT_EQ(image.height, 600);
   EXPECT_EQ(image.channels, 3);
   EXPECT_EQ(fs::exists(folder / "out/0001.png"), false);
+  EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
+  EXPECT_NE(result.output.find("picture in out/0000.png"), std::string::npos) << result.output;
+}
+
+TEST(RenderCommand, WritesJpegsIntoFoldersThatItMakes) {
+  const TemporaryFolder folder;
+  const auto result = tenebra({"render", write_moving_scene(folder), "--size", "32x24", "--frames", "0:1",
+                               "-o", folder / "a/b/%d.jpg", "--quiet"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  for (const char* file : {"a/b/0.jpg", "a/b/1.jpg"})
+    EXPECT_EQ(io::decode_rgba(read_text(folder / file)).value().width, 32) << file;
 }
 
 TEST(RenderCommand, WritesMasksOfZeroAndFullOnly) {
