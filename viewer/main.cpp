@@ -63,8 +63,8 @@ std::vector<std::string> names_of_commands(const CLI::App& program) {
 }
 
 std::string unknown_command(const CLI::App& program, const std::string& word) {
-  const std::string nearest = tenebra::settings::nearest_word(word, names_of_commands(program));
-  if (!nearest.empty()) return fmt::format("unknown command '{}' (did you mean {}?)", word, nearest);
+  const std::string nearest = tenebra::settings::did_you_mean(word, names_of_commands(program));
+  if (!nearest.empty()) return fmt::format("unknown command '{}'{}", word, nearest);
   return fmt::format("found no command and no file '{}', expected {}, or a scene", word, commands);
 }
 

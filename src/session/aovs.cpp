@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "base/fail.h"
-#include "settings/choices.h"
+#include "settings/text_values.h"
 
 namespace tenebra::session {
 namespace {
@@ -26,12 +26,7 @@ constexpr std::array aov_names{
 
 Expected<render::AovChoice> parse_aovs(const std::string& text) {
   render::AovChoice aovs;
-  std::string_view rest = text;
-  for (bool last = false; !last;) {
-    const std::size_t comma = rest.find(',');
-    const std::string word(rest.substr(0, comma));
-    last = comma == std::string_view::npos;
-    if (!last) rest.remove_prefix(comma + 1);
+  for (const std::string_view word : settings::split(text, ',')) {
     const AovName* found = nullptr;
     for (const AovName& aov : aov_names)
       if (settings::is_word(word, aov.name)) found = &aov;

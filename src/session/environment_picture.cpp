@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/fail.h"
+#include "settings/text_values.h"
 #ifdef TENEBRA_OPENEXR
 #include "io/exr/exr_file.h"
 #endif
@@ -12,10 +13,7 @@ namespace tenebra::session {
 namespace {
 
 bool is_exr(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return extension == ".exr";
+  return settings::is_word(path.extension().string(), ".exr");
 }
 
 Expected<io::ImageF> read_exr(const std::filesystem::path& path) {

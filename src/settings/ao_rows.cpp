@@ -107,8 +107,7 @@ void add_ao_fields(MethodRows& rows) {
        .value = "D",
        .help = "Directions per sample, 1024 or 32x32",
        .audience = Audience::paper,
-       .used = Used::with_fields,
-       .range = any_range},
+       .used = Used::with_fields},
       [](auto& method) -> auto& { return method.render.ao.directions; }, parse_square_count,
       [](int directions) { return fmt::format("{}", directions); }));
   rows.push_back(MethodRow::words(

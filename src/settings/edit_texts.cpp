@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "base/fail.h"
+#include "settings/setting.h"
 #include "settings/text_values.h"
 
 namespace tenebra::settings {
@@ -259,9 +260,7 @@ std::vector<EditOption> edit_options(const stage::SceneEdits& edits) {
 }
 
 std::string setting_name(const EditOption& option) {
-  std::string name = option.name + 2;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
+  return underscored(option.name + 2);
 }
 
 }  // namespace tenebra::settings

@@ -32,8 +32,7 @@ Setting<MethodSettings> exposure() {
                          .value = "E|auto",
                          .help = "Multiplies all light by this factor; auto: by one that leaves at most a "
                                  "hundredth of the pixels too bright, the same for the whole animation",
-                         .standard = "1; auto where lights have units, or 1 shows too much or too little",
-                         .range = {1e-4, 100}},
+                         .standard = "1; auto where lights have units, or 1 shows too much or too little"},
                         read, texts);
 }
 
@@ -109,7 +108,6 @@ void add_picture(MethodRows& rows) {
       [](auto& method) -> auto& { return method.tone; }, tone_choices));
   rows.push_back(MethodRow::words(
       {.name = "antialias",
-       .value = "N",
        .help = "Samples of pixels with an edge, a shadow's edge or a fine texture: 1, 2, 4, 8 or 16; all "
                "others have one",
        .group = Group::picture},

@@ -1,5 +1,7 @@
 #include "settings/nearest_word.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <vector>
 
@@ -39,6 +41,11 @@ std::string nearest_word(std::string_view word, std::span<const std::string> kno
     nearest = candidate;
   }
   return nearest;
+}
+
+std::string did_you_mean(std::string_view word, std::span<const std::string> known, std::string_view form) {
+  const std::string nearest = nearest_word(word, known);
+  return nearest.empty() ? "" : fmt::format(" (did you mean {}?)", fmt::format(fmt::runtime(form), nearest));
 }
 
 }  // namespace tenebra::settings

@@ -42,6 +42,12 @@ std::string underscored(std::string_view name) {
   return text;
 }
 
+std::string dashed(std::string_view name) {
+  std::string text(name);
+  std::replace(text.begin(), text.end(), '_', '-');
+  return text;
+}
+
 std::string shell_word(const std::string& word) {
   const auto is_plain = [](char c) {
     const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');

@@ -57,8 +57,9 @@ struct About {
   std::string_view needs{}, excludes{};  ///< the name of a setting to be given with it, or not
   std::array<std::string_view, 3>
       by_quality{};  ///< values at --quality fast, balanced and exact; empty: none
-  /// How it is given, where that is not --name VALUE: "--memory soft:". Its own name is then an old one,
-  /// which works for one version. Settings for papers: "--paper name=".
+  /// How it is given, where that is not --name VALUE: "--memory soft:". The option of its own name is then
+  /// an old one, which works for one version; in Python that name is the keyword. Settings for papers:
+  /// "--paper name=".
   std::string_view as{};
   std::string_view letter{};              ///< of -o
   bool is_switch = false;                 ///< true where it is given without a value
@@ -109,6 +110,8 @@ std::string given_as(const About& about);
 std::string option_name(const About& about);
 /// The name in logs and in Python: "soft_error".
 std::string underscored(std::string_view name);
+/// The same name as tables and options have it: "soft-error".
+std::string dashed(std::string_view name);
 
 /// `word` as a POSIX shell takes it for one word: quoted where it must be.
 std::string shell_word(const std::string& word);

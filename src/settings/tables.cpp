@@ -1,12 +1,9 @@
 #include "settings/tables.h"
 
-#include <algorithm>
-
 namespace tenebra::settings {
 
 const About* find_about(std::string_view written) {
-  std::string name(written);
-  std::replace(name.begin(), name.end(), '_', '-');
+  const std::string name = dashed(written);
   if (const About* found = find(method_table(), std::string_view(name))) return found;
   return find(scene_table(), std::string_view(name));
 }

@@ -1,5 +1,6 @@
 #include "settings/text_values.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/fail.h"

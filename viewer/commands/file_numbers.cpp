@@ -1,6 +1,7 @@
 #include "commands/file_numbers.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "math/whole_origin.h"
 #include "scene/pose.h"

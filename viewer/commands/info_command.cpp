@@ -34,8 +34,9 @@ constexpr const char* info_examples =
     "  tenebra info scenes/city.glb --json | python3 -m json.tool\n"
     "  tenebra info --gl\n"
     "\n"
-    "Triangles and bounds are those of the first frame, in the coordinates of the file. Where the file does\n"
-    "not number its frames, they are counted at --fps.";
+    "Triangles and bounds are those of the first frame; bounds are in metres, along the axes and from the "
+    "zero\n"
+    "of the file. Where the file does not number its frames, they are counted at --fps.";
 
 struct InfoOptions {
   SceneOptions scene;
@@ -115,7 +116,7 @@ Json surfaces_of(const session::SurfaceCounts& counts) {
           {"emissive", counts.emissive},       {"unlit", counts.unlit},
           {"vertex_colors", counts.colored},   {"alpha_mask", counts.alpha_mask},
           {"alpha_blend", counts.alpha_blend}, {"transmission", counts.transmission},
-          {"see_through", counts.see_through}, {"normal_mapped", counts.normal_mapped}};
+          {"see_through", counts.see_through}};
 }
 
 Json images_of(const Scene& scene) {

@@ -32,10 +32,10 @@ std::string outputs_text(const RenderOptions& options) {
       text += fmt::format(", {} {}", name, std::filesystem::path(pattern.text()).filename().string());
   };
   add("--mask", options.masks);
-  add("--mask-colour", options.mask_colours);
-  add("--mask-mean", options.mask_means);
-  add("--error-map", options.error_maps);
-  add("--mask-samples", options.mask_samples);
+  add("--mask colour", options.mask_colours);
+  add("--mask mean", options.mask_means);
+  add("--mask error", options.error_maps);
+  add("--mask samples", options.mask_samples);
   return text;
 }
 

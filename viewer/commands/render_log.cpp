@@ -11,18 +11,13 @@
 namespace tenebra::viewer {
 namespace {
 
-template <class T>
-std::string vector(const glm::vec<3, T>& v) {
-  return fmt::format("{},{},{}", v.x, v.y, v.z);
-}
-
 std::string camera_text(const session::StagedScene& staged, const SceneOptions& options) {
   std::string text = fmt::format("{} ({})", staged.camera,
                                  staged.scene.cameras[static_cast<std::size_t>(staged.camera)].name);
   if (options.eye) {
-    text = fmt::format(
-        "eye {} look-at {} up {}", vector(*options.eye), vector(options.look_at),
-        vector(options.up.value_or(glm::vec3(staged.scene.frame.direction_to_file(glm::dvec3(0, 1, 0))))));
+    text = fmt::format("eye {} look-at {} up {}", place_text(*options.eye), place_text(options.look_at),
+                       vector_text(options.up.value_or(
+                           glm::vec3(staged.scene.frame.direction_to_file(glm::dvec3(0, 1, 0))))));
   }
   return options.fov_deg ? fmt::format("{}, fov {} degrees", text, *options.fov_deg) : text;
 }

@@ -8,8 +8,6 @@
 
 namespace tenebra::viewer {
 
-using settings::shell_word;
-
 /// "--shadows soft --light-size 0.5x0.5 ...": every option whose value is not the default, in the order of
 /// the help. Read by add_method_options it gives the same settings. What --quality stands for is among them.
 inline std::string method_arguments(MethodOptions options) {

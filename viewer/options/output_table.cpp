@@ -1,9 +1,5 @@
 #include "options/output_table.h"
 
-#include <algorithm>
-#include <limits>
-
-#include "options/memory_option.h"
 #include "session/aovs.h"
 #include "settings/rows.h"
 #include "settings/tables.h"
@@ -218,7 +214,9 @@ void add_limits(OutputRows& rows) {
   rows.push_back(OutputRow::number(
       {.name = "memory",
        .value = "[soft:|ao:]MB",
-       .help = memory_help,
+       .help = "Memory for the whole program, in MB; if it needs more, it ends with a message. May be "
+               "repeated: soft:MB is the part of soft shadows (else half), ao:MB that of fields and surface "
+               "samples (else a quarter, at most 512)",
        .standard = "what the system has",
        .group = Group::run,
        .affects = Affects::speed,
@@ -251,9 +249,7 @@ std::span<const settings::Setting<RenderOptions>> output_table() {
 
 const About* about_of(std::string_view written) {
   if (const About* found = settings::find_about(written)) return found;
-  std::string name(written);
-  std::replace(name.begin(), name.end(), '_', '-');
-  return settings::find(output_table(), std::string_view(name));
+  return settings::find(output_table(), std::string_view(settings::dashed(written)));
 }
 
 }  // namespace tenebra::viewer

@@ -125,7 +125,8 @@ Expected<void> check_pipe(const RenderOptions& options) {
     return base::fail(
         "--resume looks for what was written, and frames in a pipe are gone; expected files with it");
   const auto is_stdout = [](const std::string& name) { return name == "/dev/stdout" || name == "/dev/fd/1"; };
-  for (const auto& [option, name] : {std::pair("--log", options.log), std::pair("--trace", options.trace)})
+  for (const auto& [option, name] :
+       {std::pair("--log", options.log), std::pair("--log trace", options.trace)})
     if (is_stdout(name)) return base::fail("-o - and {} {} are both standard output", option, name);
   return {};
 }

@@ -111,14 +111,6 @@ bool was_given(const CLI::App& command, const std::string& name) {
   return command.get_option(name)->count() > 0;
 }
 
-std::vector<GivenOption> given_options(const CLI::App& command) {
-  std::vector<GivenOption> given;
-  for (const CLI::Option* option : command.get_options()) {
-    if (option->count() > 0) given.push_back({option->get_name(), option->get_group()});
-  }
-  return given;
-}
-
 std::shared_ptr<CLI::App> lone_command() {
   auto command = std::make_shared<CLI::App>();
   command->set_help_flag();

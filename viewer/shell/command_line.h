@@ -83,13 +83,6 @@ AddedOption option_of(CLI::App& command, const std::string& name);
 /// Whether the option, which the command must have, was given.
 bool was_given(const CLI::App& command, const std::string& name);
 
-struct GivenOption {
-  std::string name;
-  std::string group;
-};
-/// All that were given.
-std::vector<GivenOption> given_options(const CLI::App& command);
-
 /// A command that stands alone, without --help, for options within the text of another option.
 std::shared_ptr<CLI::App> lone_command();
 /// Reads the arguments in `text`; a failure is the sentence of what was refused.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "options/settings_names.h"
 #include "scene/view_basis.h"
 
 namespace tenebra::viewer {
@@ -15,11 +16,6 @@ constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
 /// The view axis keeps this angle to `up`: beyond, the picture would turn over.
 constexpr double least_angle_to_up_rad = 0.01;
 constexpr double notch = 0.9;  ///< distance after one notch of the wheel
-
-template <class T>
-std::string text_of(const glm::vec<3, T>& v) {
-  return fmt::format("{},{},{}", v.x, v.y, v.z);
-}
 
 /// The turn of a view along `direction` right about `up` and down about its right axis, kept off the poles.
 glm::dquat turn_of(glm::dvec3 direction, glm::dvec3 up, double right_rad, double down_rad) {
@@ -36,10 +32,10 @@ glm::dquat turn_of(glm::dvec3 direction, glm::dvec3 up, double right_rad, double
 
 std::string camera_arguments(const FreeCamera& camera, const FileFrame& frame) {
   const auto place = [&](const glm::vec3& p) {
-    return frame.is_identity() ? text_of(p) : text_of(frame.to_file(glm::dvec3(p)));
+    return frame.is_identity() ? vector_text(p) : place_text(frame.to_file(glm::dvec3(p)));
   };
   return fmt::format("--eye {} --look-at {} --up {} --fov {}", place(camera.eye), place(camera.target),
-                     text_of(glm::vec3(frame.direction_to_file(glm::dvec3(camera.up)))), camera.fov_deg);
+                     vector_text(glm::vec3(frame.direction_to_file(glm::dvec3(camera.up)))), camera.fov_deg);
 }
 
 FreeCamera free_camera(const ViewRays& view, int width, int height, float distance_m) {

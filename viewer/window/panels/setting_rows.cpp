@@ -38,8 +38,8 @@ void edit_number(Ui& ui, MethodOptions& method, const char* label, std::string_v
   const auto& setting = method_setting(name);
   setting_row(ui, label, name);
   int value = settings::number_from<int>(setting.text(method)).value_or(0);
-  const int low = setting.range.or_zero ? 0 : static_cast<int>(setting.range.low);
-  if (number_field(ui, mark, value, low, static_cast<int>(setting.range.high), step))
+  if (number_field(ui, mark, value, static_cast<int>(setting.range.low), static_cast<int>(setting.range.high),
+                   step))
     static_cast<void>(setting.read(method, fmt::format("{}", value)));  // within its range
 }
 
