@@ -154,6 +154,7 @@ Expected<StagedScene> stage_scene(const SceneSettings& settings, Staging staging
     return tl::unexpected(checked.error());
   if (auto chosen = choose_view(settings, *staged); !chosen) return tl::unexpected(chosen.error());
   if (settings.transfer) scene.transfer = *settings.transfer;  // until here it says what the file is
+  staged->display.frame = scene.frame;
   staged->display.transfer = scene.transfer;
   if (auto settled = settle_brightness(settings, stated, *staged); !settled)
     return tl::unexpected(settled.error());

@@ -63,9 +63,10 @@ Expected<void> check_method_settings(const MethodSettings& method) {
         "--paper samples=depth has no exact points, and --terminator smooth needs them; expected "
         "samples=ids");
   }
-  if (render.area_lights.facing && !method.light_size)
+  if (method.light_facing && gives_no_size(method))
     return base::fail(
-        "--light-size facing=X,Y,Z is for rectangles; expected --light-size with their size too");
+        "--light-size facing=X,Y,Z is for rectangles, and --light-size 0 makes none; expected a size above 0 "
+        "with it");
   if (soft && method.cull_front.value_or(false)) {
     return base::fail("--paper cull=front is for hard shadows, and with --shadows soft every face casts");
   }
@@ -90,6 +91,10 @@ bool takes_measured_exposure(const MethodSettings& method, const SceneDisplay& d
   return display.exposures && (method.auto_exposure || (display.needs_exposure && !method.exposure_given));
 }
 
+bool gives_no_size(const MethodSettings& method) {
+  return method.light_size && method.light_size->size == glm::vec2(0.0f);
+}
+
 bool makes_emissive_lights(const MethodSettings& method) {
   return method.render.area_lights.emissive_quads && method.render.shadows == render::ShadowMode::soft;
 }
@@ -110,12 +115,14 @@ render::RenderSettings render_settings(const MethodSettings& method, Size size, 
       from_depth ? render::Terminator::flat : method.terminator.value_or(render::Terminator::smooth);
   render.soft.simd = render.ao.simd = render.hard.simd;
   render.area_lights.emission = method.light_emission;
+  render.area_lights.facing.reset();
+  if (method.light_facing)
+    render.area_lights.facing = glm::vec3(display.frame.to_scene(*method.light_facing));
   const LightSize given = method.light_size.value_or(LightSize{});
   render.area_lights.size = given.size;
   render.area_lights.percent_of_diagonal = given.percent;
-  const bool hard = method.light_size && given.size == glm::vec2(0.0f);
-  render.area_lights.unsized_percent = hard ? 0 : unsized_percent;
-  render.area_lights.unsized_sun_deg = hard ? 0 : unsized_sun_deg;
+  render.area_lights.unsized_percent = gives_no_size(method) ? 0 : unsized_percent;
+  render.area_lights.unsized_sun_deg = gives_no_size(method) ? 0 : unsized_sun_deg;
   return render;
 }
 

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <glm/glm.hpp>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include <tenebra/scene.h>
 #include "render/renderer.h"
 #include "settings/quality.h"
 #include "settings/values.h"
@@ -19,8 +21,9 @@ inline constexpr int standard_antialias = 4;
 /// Exposures by tone: what --exposure auto stands for.
 using AutoExposures = std::array<float, shade::tones.size()>;
 
-/// The properties of a scene that decide how it is shown.
+/// The properties of a scene that settings are applied with.
 struct SceneDisplay {
+  FileFrame frame;  ///< of the places that settings name
   Transfer transfer = Transfer::srgb;
   std::optional<AutoExposures> exposures;  ///< none: not measured
   bool needs_exposure = false;             ///< pictures take them where the user gives no exposure
@@ -39,9 +42,10 @@ struct MethodSettings {
   std::optional<LightSize> light_size;                ///< not given: unsized_percent; 0: hard shadows
   std::optional<render::Terminator> terminator;       ///< not given: smooth
   render::LightEmission light_emission = render::LightEmission::point;  ///< in place of render's
-  std::optional<shade::Tone> tone;  ///< not given: neutral for linear colours, none for display values
-  bool auto_exposure = false;       ///< SceneDisplay::exposures, where measured, in place of render's
-  bool exposure_given = false;      ///< render's exposure is the user's: the scene has no say
+  std::optional<glm::dvec3> light_facing;  ///< in the file's coordinates, in place of render's
+  std::optional<shade::Tone> tone;         ///< not given: neutral for linear colours, none for display values
+  bool auto_exposure = false;              ///< SceneDisplay::exposures, where measured, in place of render's
+  bool exposure_given = false;             ///< render's exposure is the user's: the scene has no say
 
   bool operator==(const MethodSettings& other) const;  ///< all settings of the table are the same
 };
@@ -64,6 +68,9 @@ shade::Tone tone_of(const MethodSettings& method, Transfer transfer);
 
 /// Whether pictures take SceneDisplay::exposures.
 bool takes_measured_exposure(const MethodSettings& method, const SceneDisplay& display);
+
+/// Whether lights without a size keep none.
+bool gives_no_size(const MethodSettings& method);
 
 /// Whether emissive meshes are lights.
 bool makes_emissive_lights(const MethodSettings& method);

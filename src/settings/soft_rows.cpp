@@ -16,7 +16,8 @@ Setting<MethodSettings> light_size() {
            "Turns point and spot lights into rectangles of this size, in metres, or (4%) in percent of the "
            "scene's diagonal, of the same brightness; 0: lights without a size keep hard shadows. May be "
            "repeated: facing=X,Y,Z, the point that they "
-           "face; emission=point|lambert; sun=DEGREES, the diameter of directional lights, like 0.53",
+           "face, in the file's coordinates; emission=point|lambert; sun=DEGREES, the diameter of "
+           "directional lights, like 0.53",
        .standard = "1% for lights without a size",
        .used = Used::with_soft,
        .has_keys = true},
@@ -38,12 +39,12 @@ void add_light_shapes(MethodRows& rows) {
   rows.push_back(MethodRow::value(
       {.name = "light-facing",
        .value = "X,Y,Z",
-       .help = "Point that the rectangles face",
+       .help = "Point that the rectangles face, in the coordinates of the file",
        .standard = "the scene's centre; spot lights: where they shine",
        .group = Group::shadows,
        .used = Used::with_soft,
        .as = "--light-size facing="},
-      [](auto& method) -> auto& { return method.render.area_lights.facing; }, parse_vector, vector_text));
+      [](auto& method) -> auto& { return method.light_facing; }, parse_place, place_text));
   rows.push_back(MethodRow::words(
       {.name = "light-emission",
        .help = "How the rectangles shine. point: in every direction as bright as the point, so soft and hard "
@@ -80,7 +81,6 @@ Setting<MethodSettings> soft_memory() {
                          .standard = "what the system has, and 4 for a BSP",
                          .group = Group::run,
                          .used = Used::with_soft_exact,
-                         .range = {0, 1e6},
                          .as = "--memory soft:"},
                         read, texts);
 }

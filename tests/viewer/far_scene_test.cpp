@@ -43,6 +43,13 @@ TEST(FarScene, LooksAsItDoesAtTheOrigin) {
                      {"--eye", "10000001,2,-19999995", "--look-at", "10000000,0,-20000000", "--add-light",
                       "point position=10000000.5,2,-20000000"}));
   EXPECT_NE(rendered(folder, near), rendered(folder, far, {"--offset", "none"}));
+  const auto lit_towards = [&](const std::string& scene, const std::string& place) {
+    return rendered(folder, scene,
+                    {"--shadows", "soft", "--light-size", "2", "--light-size", "facing=" + place,
+                     "--light-size", "emission=lambert", "--antialias", "1"});
+  };
+  EXPECT_EQ(lit_towards(near, "3.25,1.5,2"), lit_towards(far, "10000003.25,1.5,-19999998"));
+  EXPECT_NE(lit_towards(near, "3.25,1.5,2"), lit_towards(near, "0,0,0"));
 }
 
 TEST(FarScene, VerifySeesThatDigitsAreLost) {

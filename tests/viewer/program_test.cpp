@@ -258,7 +258,7 @@ std::vector<BadUse> bad_uses() {
                                                       {"--light-size", "1 %"},
                                                       {"--light-size", "1e39"},
                                                       {"--light-size", "nan"},
-                                                      {"--light-size", "facing=0,0,0"},
+                                                      {"--light-size", "0", "--light-size", "facing=0,0,0"},
                                                       {"--light-size", "facing=up", "--light-size", "1"},
                                                       {"--paper", "soft-solver=best"},
                                                       {"--paper", "soft-grouping=pixel"},

@@ -19,7 +19,6 @@
 #include "shell/memory_limit.h"
 #include "shell/progress.h"
 #include "shell/stop_signals.h"
-#include "stage/default_light.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -81,7 +80,8 @@ Expected<Baking> prepare(const BakeOptions& options) {
   if (!time_s) return tl::unexpected(time_s.error());
 
   session::evaluate(scene, options.scene.edits, baking.staged.clip, *time_s, baking.input);
-  baking.request.settings = session::with_edits(bake_settings(options), options.scene.edits);
+  baking.request.settings =
+      session::with_edits(bake_settings(options, baking.staged.display), options.scene.edits);
   baking.request.direct = options.content != BakeContent::ao;
   if (options.content == BakeContent::both)
     baking.request.ambient = options.ambient.value_or(scene.ambient_light);

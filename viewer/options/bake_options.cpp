@@ -131,10 +131,10 @@ Expected<void> settle_bake_options(const CLI::App& command, BakeOptions& options
   return {};
 }
 
-render::RenderSettings bake_settings(const BakeOptions& options) {
+render::RenderSettings bake_settings(const BakeOptions& options, const SceneDisplay& display) {
   MethodOptions method = options.method;
   method.terminator = render::Terminator::flat;
-  render::RenderSettings settings = render_settings(method, {}, {});
+  render::RenderSettings settings = render_settings(method, {}, display);
   settings.ao.mode = options.content == BakeContent::light ? AoMode::none : AoMode::adaptive;
   return settings;
 }

@@ -35,7 +35,7 @@ void add_bake_options(CLI::App& command, BakeOptions& options);
 /// Checks what single options cannot; names the map where no name was given.
 Expected<void> settle_bake_options(const CLI::App& command, BakeOptions& options);
 
-/// How light is computed.
-render::RenderSettings bake_settings(const BakeOptions& options);
+/// How the light of a scene is computed.
+render::RenderSettings bake_settings(const BakeOptions& options, const SceneDisplay& display);
 
 }  // namespace tenebra::viewer

@@ -11,8 +11,7 @@ namespace {
 /// A place in the scene as numbers of its file.
 void edit_place(const char* name, const FileFrame& frame, glm::vec3& place) {
   glm::dvec3 numbers = frame.to_file(glm::dvec3(place));
-  if (ImGui::DragScalarN(name, ImGuiDataType_Double, &numbers.x, 3, 0.05f, nullptr, nullptr, "%.3f"))
-    place = glm::vec3(frame.to_scene(numbers));
+  if (edit_coordinates(name, numbers)) place = glm::vec3(frame.to_scene(numbers));
 }
 
 }  // namespace

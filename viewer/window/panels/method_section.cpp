@@ -50,7 +50,7 @@ void edit_light_size(Ui& ui, MethodOptions& method) {
     size.size = {std::max(metres[0], 0.0f), std::max(metres[1], 0.0f)};
     if (!(size.size.x > 0 && size.size.y > 0)) size.size = glm::vec2(0.0f);
     method.light_size = size;
-    if (size.size.x == 0) method.render.area_lights.facing.reset();
+    if (gives_no_size(method)) method.light_facing.reset();
   }
   setting_row(ui, "Sun size", "sun-size");
   std::optional<float>& sun = method.render.area_lights.sun_deg;
@@ -66,18 +66,19 @@ void edit_light_size(Ui& ui, MethodOptions& method) {
                        ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
     ui.mark("sun size");
   }
-  if (method.light_size && method.light_size->size.x == 0) return;
+  if (gives_no_size(method)) return;
   edit_words(ui, method, "Shining", "light-emission", "emission");
   setting_row(ui, "Facing", "light-facing");
-  std::optional<glm::vec3>& facing = method.render.area_lights.facing;
+  std::optional<glm::dvec3>& facing = method.light_facing;
   bool own = facing.has_value();
   if (ImGui::Checkbox("a point", &own)) {
     facing.reset();
-    if (own) facing = ui.state.centre;
+    if (own) facing = ui.state.display.frame.to_file(glm::dvec3(ui.state.centre));
   }
+  ui.mark("facing");
   if (facing) {
     row(ui, "");
-    ImGui::DragFloat3("##facing", &facing->x, 0.05f, 0, 0, "%.2f");
+    edit_coordinates("##facing", *facing);
   }
 }
 

@@ -108,6 +108,10 @@ bool edit_color(Ui& ui, const std::string& mark, glm::vec3& color) {
   return true;
 }
 
+bool edit_coordinates(const char* name, glm::dvec3& place) {
+  return ImGui::DragScalarN(name, ImGuiDataType_Double, &place.x, 3, 0.05f, nullptr, nullptr, "%.3f");
+}
+
 void dim_text(const char* text) {
   ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
   ImGui::TextUnformatted(text);

@@ -64,6 +64,8 @@ bool section(Ui& ui, const char* title, bool open);
 /// A linear colour, edited as it is seen where pictures are encoded. Values above 1 stay what they are until
 /// they are changed.
 bool edit_color(Ui& ui, const std::string& mark, glm::vec3& color);
+/// X, Y and Z with all their digits.
+bool edit_coordinates(const char* name, glm::dvec3& place);
 void tooltip(const char* text);  ///< over the last widget
 
 /// A row of buttons of which one is down. True if another was pressed.
