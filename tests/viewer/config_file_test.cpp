@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <CLI/CLI.hpp>
+
+#include "options/render_options.h"
 #include "settings/choices.h"
 #include "settings/nearest_word.h"
 #include "viewer/viewer_test_scene.h"
@@ -35,6 +38,62 @@ TEST(ConfigFile, RefusesWhatNothingReads) {
          "'view.width-of-all', expected the long name of an option of tenebra view");
   expect("[view]\ncompere = 3\n", "(did you mean compare?)");
   EXPECT_EQ(refusal(folder, "size = 40x30\n[view]\ncompare = --shadows soft\n[verify]\nsamples = 9\n"), "");
+}
+
+/// What `render` makes of a command line, with a file of this text where there is one.
+viewer::RenderOptions read_options(const std::string& line, const std::string& text = "") {
+  const TemporaryFolder folder;
+  write_text(folder / "my.cfg", text);
+  viewer::RenderOptions options;
+  CLI::App app;
+  viewer::add_render_options(app, options);
+  app.parse("a.glb --config " + (folder / "my.cfg").string() + " " + line);
+  return options;
+}
+std::vector<std::string> names_of(const std::vector<viewer::OutputPattern>& patterns) {
+  std::vector<std::string> names;
+  for (const viewer::OutputPattern& pattern : patterns) names.push_back(pattern.text());
+  return names;
+}
+using Names = std::vector<std::string>;
+
+TEST(ConfigFile, GivesEveryKeyThatTheCommandLineDoesNotGive) {
+  const std::string two = R"(mask = ["colour:a.png", "colour:b.pfm", "c.png"])";
+  EXPECT_EQ(names_of(read_options("", two).mask_colours), (Names{"a.png", "b.pfm"}));
+  EXPECT_EQ(names_of(read_options("", two).masks), Names{"c.png"});
+  const viewer::RenderOptions both = read_options("--mask colour:d.png", two);
+  EXPECT_EQ(names_of(both.mask_colours), Names{"d.png"});
+  EXPECT_EQ(names_of(both.masks), Names{"c.png"}) << "a key of an option is not the option";
+}
+
+TEST(ConfigFile, KeysLeaveTheValueOfTheirOption) {
+  const auto sized = read_options("--light-size sun=1", "light-size = 5%").method;
+  EXPECT_EQ(sized.light_size, (viewer::LightSize{glm::vec2(5), true}));
+  EXPECT_EQ(sized.render.area_lights.sun_deg, 1.0f);
+  EXPECT_EQ(read_options("--memory soft:300", "memory = 900").memory_mb, 900);
+  EXPECT_EQ(read_options("--log trace:t.json", "log = f.csv").log, "f.csv");
+  EXPECT_EQ(read_options("--light-size 2", "light-size = 5%").method.light_size->percent, false);
+}
+
+TEST(ConfigFile, TakesVectorsOfKeysWithoutQuotes) {
+  for (const char* text : {"light-size = facing=0,1.5,-4", "light-size = \"facing=0,1.5,-4\"",
+                           "light-size = [\"2\", \"facing=0,1.5,-4\"]"})
+    EXPECT_EQ(read_options("", text).method.light_facing, glm::dvec3(0, 1.5, -4)) << text;
+}
+
+TEST(ConfigFile, OldNamesAndKeysAddUp) {
+  EXPECT_EQ(names_of(read_options("--mask-colour a.png --mask colour:b.png").mask_colours),
+            (Names{"a.png", "b.png"}));
+  EXPECT_EQ(names_of(read_options("--mask colour:b.png --mask-colour a.png").mask_colours),
+            (Names{"a.png", "b.png"}));
+}
+
+TEST(ConfigFile, IdleKeysAreNamedOnce) {
+  const TemporaryFolder folder;
+  const auto result = tenebra({"render", write_moving_scene(folder), "--size", "16x12", "-o", "none",
+                               "--frames", "0", "--light-size", "sun=1"});
+  EXPECT_NE(result.errors.find("--light-size sun does nothing"), std::string::npos) << result.errors;
+  EXPECT_EQ(result.errors.find("--light-size does nothing"), std::string::npos) << result.errors;
 }
 
 TEST(ConfigFile, DoesNotWaitForAPipe) {

@@ -279,10 +279,10 @@ void add_trade_command(CLI::App& program, Run& run) {
   add_memory_option(command, options->render.memory_mb);
   add_flag(command, "--quiet", options->render.quiet, "No progress and no warnings");
   add_raster_options(command, options->render.raster);
-  add_config_option(command);
   add_scene_options(command, options->render.scene);
   option_of(command, "SCENE").required();
   add_method_options(command, options->render.method);
+  add_config_option(command);
   when_chosen(command, [options, &command, &run] {
     settle_quality(command, options->render.method);
     settle_memory(command, options->render.memory_mb, options->render.method);

@@ -23,14 +23,17 @@ bool is_flag(const CLI::Option& option) {
   return option.get_expected_min() == 0;
 }
 
-/// Gives `option` the values of `item`, unless the command line gave it some.
-void apply(CLI::App& command, CLI::Option& option, CLI::ConfigItem item) {
+/// Gives `option` the values of `item`, unless it has some, and its keys theirs, but for settings that the
+/// command line gave.
+void apply(CLI::App& command, CLI::Option& option, CLI::ConfigItem item, const settings::Given& given) {
   const auto is_key = [&](const std::string& text) {
-    return read_key(command, option.get_name(), text, IfGiven::leave);
+    return read_key(command, option.get_name(), text, given);
   };
+  item.inputs = with_whole_vectors(command, option.get_name(), item.inputs);
   const bool keys_alone =
       !item.inputs.empty() && std::erase_if(item.inputs, is_key) > 0 && item.inputs.empty();
-  if (!option.empty() || keys_alone) return;
+  if (keys_alone || gives_itself(command, option)) return;
+  option.clear();  // of the command line's keys, which have been read
   if (is_flag(option)) {
     const auto on = settings::parse_switch(CLI::ConfigBase().to_flag(item));
     if (!on) throw CLI::ValidationError(option.get_name(), on.error().message);
@@ -56,18 +59,13 @@ std::vector<CLI::App*> commands_with_config(CLI::App& command) {
   return command.get_parent()->get_subcommands(reads);
 }
 
-std::string did_you_mean(const std::string& nearest, std::string_view form) {
-  return nearest.empty() ? "" : fmt::format(" (did you mean {}?)", fmt::format(fmt::runtime(form), nearest));
-}
-
 std::string unknown_key(CLI::App& command, const CLI::ConfigItem& item) {
   std::vector<std::string> known;
   for (const CLI::Option* option : command.get_options())
     for (const std::string& name : option->get_lnames())
       if (!is_outdated(*option) && option_of_key(command, name) != nullptr) known.push_back(name);
   return fmt::format("found the name '{}', expected the long name of an option of tenebra {}{}",
-                     item.fullname(), command.get_name(),
-                     did_you_mean(settings::nearest_word(item.name, known), "{}"));
+                     item.fullname(), command.get_name(), settings::did_you_mean(item.name, known));
 }
 
 std::string unknown_section(const std::vector<CLI::App*>& commands, const CLI::ConfigItem& item) {
@@ -75,8 +73,7 @@ std::string unknown_section(const std::vector<CLI::App*>& commands, const CLI::C
   known.reserve(commands.size());
   for (const CLI::App* other : commands) known.push_back(other->get_name());
   return fmt::format("found the section [{}], expected [{}]{}", fmt::join(item.parents, "."),
-                     fmt::join(known, "], ["),
-                     did_you_mean(settings::nearest_word(item.parents.front(), known), "[{}]"));
+                     fmt::join(known, "], ["), settings::did_you_mean(item.parents.front(), known, "[{}]"));
 }
 
 /// The command that `item` is for: `command` itself, or the one whose section it stands in; none: there is no
@@ -101,6 +98,7 @@ void read_config(CLI::App& command, const std::string& path) {
     throw CLI::ValidationError(config_option, fmt::format("{}: {}", path, what));
   };
   const std::vector<CLI::App*> commands = commands_with_config(command);
+  const settings::Given given = given_settings(command);
   for (const CLI::ConfigItem& item : read_items(path)) {
     CLI::App* const concerned = command_of(command, commands, item);
     if (concerned == nullptr) refuse(unknown_section(commands, item));
@@ -111,7 +109,7 @@ void read_config(CLI::App& command, const std::string& path) {
     if (concerned != &command) continue;
     if (is_outdated(*option) && !is_quiet(command)) print_warnings({outdated_sentence(item.name)});
     try {
-      apply(command, *option, item);
+      apply(command, *option, item, given);
     } catch (const CLI::Error& error) {
       refuse(error.what());
     }

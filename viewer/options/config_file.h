@@ -9,7 +9,8 @@ class App;
 
 namespace tenebra::viewer {
 
-/// Adds --config FILE. The file has lines `name = value` with the long names of `command`'s options
+/// Adds --config FILE, behind all other options: it is read after them. The file has lines `name = value`
+/// with the long names of `command`'s options
 /// ("size = 800x600", "quiet = true", "no-cast = [a, b]"), # comments, and sections: what stands under
 /// [render], [view], [verify] or [trade] is for that command only. What the command line says counts more
 /// than the file. A failure is one sentence with file and name; names and sections that no command reads are

@@ -12,7 +12,7 @@ constexpr int share_of_ao = 4, share_of_soft = 2;
 AddedOption add_memory_option(CLI::App& command, std::optional<int>& memory_mb, const char* help) {
   const auto read = [&command, &memory_mb](const std::vector<std::string>& texts) -> Expected<void> {
     for (const std::string& text : texts) {
-      if (read_key(command, "--memory", text, IfGiven::replace)) continue;
+      if (read_key(command, "--memory", text)) continue;
       const auto mb = parse_at_least_one(text);
       if (!mb) return tl::unexpected(mb.error());
       memory_mb = *mb;

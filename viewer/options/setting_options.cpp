@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <optional>
 
 #include "base/fail.h"
 #include "options/output_table.h"
@@ -37,25 +39,43 @@ std::string setting_of(const CLI::Option& option) {
   return names.empty() ? "" : names.front();
 }
 
-/// The hidden settings of `command` that keys of `option` give.
-std::vector<std::pair<const About*, CLI::Option*>> settings_by(CLI::App& command, const std::string& option) {
-  std::vector<std::pair<const About*, CLI::Option*>> found;
-  for (CLI::Option* candidate : command.get_options(nullptr)) {
-    const About* about = about_of(setting_of(*candidate));
-    if (about != nullptr && candidate->get_group() == hidden &&
-        settings::given_as(*about).starts_with(option + " "))
-      found.emplace_back(about, candidate);
-  }
+/// The settings of `command` that `fit`.
+std::vector<const About*> settings_where(const CLI::App& command, auto fit) {
+  std::vector<const About*> found;
+  for (const CLI::Option* option : command.get_options())
+    if (const About* about = about_of(setting_of(*option)); about != nullptr && fit(*about))
+      found.push_back(about);
   return found;
 }
 
-std::vector<std::pair<const About*, CLI::Option*>> rare_settings(CLI::App& command) {
-  std::vector<std::pair<const About*, CLI::Option*>> found;
-  for (CLI::Option* option : command.get_options(nullptr))
-    if (const About* about = about_of(setting_of(*option));
-        about != nullptr && about->audience == Audience::rare)
-      found.emplace_back(about, option);
-  return found;
+/// Those that keys of `option` give, by hidden options of their own.
+std::vector<const About*> settings_by(const CLI::App& command, const std::string& option) {
+  return settings_where(command, [&](const About& about) {
+    const std::string as = settings::given_as(about);
+    return as != long_name(about.name) + " " && as.starts_with(option + " ");
+  });
+}
+
+std::vector<const About*> rare_settings(const CLI::App& command) {
+  return settings_where(command, [](const About& about) { return about.audience == Audience::rare; });
+}
+
+CLI::Option* option_for(CLI::App& command, const About& about) {
+  return command.get_option(long_name(about.name));
+}
+
+/// What `text`, given to `option`, is the value of by a key; none: it has no key.
+struct KeyedText {
+  const About* about = nullptr;
+  std::string value;
+};
+std::optional<KeyedText> keyed(const CLI::App& command, const std::string& option, const std::string& text) {
+  for (const About* about : settings_by(command, option)) {
+    const std::string key = settings::given_as(*about).substr(option.size() + 1);
+    if (!key.empty() && settings::is_word(text.substr(0, key.size()), key))
+      return KeyedText{about, text.substr(key.size())};
+  }
+  return std::nullopt;
 }
 
 [[noreturn]] void refuse(const std::string& name, const std::string& what) {
@@ -64,10 +84,9 @@ std::vector<std::pair<const About*, CLI::Option*>> rare_settings(CLI::App& comma
 
 std::string known_keys(CLI::App& command, const std::string& text) {
   std::vector<std::string> known;
-  for (const auto& [about, option] : settings_by(command, paper_option)) known.emplace_back(about->name);
-  const std::string nearest = settings::nearest_word(text.substr(0, text.find('=')), known);
+  for (const About* about : settings_by(command, paper_option)) known.emplace_back(about->name);
   return fmt::format("{}{}", fmt::join(known, ", "),
-                     nearest.empty() ? "" : fmt::format(" (did you mean {}?)", nearest));
+                     settings::did_you_mean(text.substr(0, text.find('=')), known));
 }
 
 void add_paper(CLI::App& command) {
@@ -75,7 +94,7 @@ void add_paper(CLI::App& command) {
     return;
   const auto read = [&command](const std::vector<std::string>& texts) {
     for (const std::string& text : texts)
-      if (!read_key(command, paper_option, text, IfGiven::replace))
+      if (!read_key(command, paper_option, text))
         refuse(paper_option,
                fmt::format("found {}, expected KEY=VALUE with one of {}", text, known_keys(command, text)));
   };
@@ -94,7 +113,7 @@ void add_paper(CLI::App& command) {
 /// Where another page of help lists them.
 void hide_rare(CLI::App& command) {
   if (command.get_help_all_ptr() == nullptr) return;
-  for (const auto& [about, option] : rare_settings(command)) option->group(hidden);
+  for (const About* about : rare_settings(command)) option_for(command, *about)->group(hidden);
 }
 
 void link_needs(CLI::App& command) {
@@ -126,7 +145,7 @@ AddedOption add_setting(CLI::App& command, const About& about, const std::string
   const auto read_all = [&command, longer, read](const std::vector<std::string>& texts) -> Expected<void> {
     std::vector<std::string> own;
     for (const std::string& text : texts)
-      if (!read_key(command, longer, text, IfGiven::replace)) own.push_back(text);
+      if (!read_key(command, longer, text)) own.push_back(text);
     return own.empty() ? Expected<void>() : read(own);
   };
   AddedOption option = [&] {
@@ -151,26 +170,48 @@ void complete_settings(CLI::App& command) {
 settings::Given given_settings(const CLI::App& command) {
   settings::Given given;
   for (const CLI::Option* option : command.get_options())
-    if (option->count() > 0) given.insert(setting_of(*option));
+    if (gives_itself(command, *option)) given.insert(setting_of(*option));
   return given;
 }
 
-bool read_key(CLI::App& command, const std::string& option, const std::string& text, IfGiven if_given) {
-  for (const auto& [about, target] : settings_by(command, option)) {
-    const std::string key = settings::given_as(*about).substr(option.size() + 1);
-    if (key.empty() || settings::lower_case(text.substr(0, key.size())) != key) continue;
-    if (if_given == IfGiven::leave && !target->empty()) return true;
-    try {
-      target->clear();
-      target->add_result(text.substr(key.size()));
-      target->run_callback();
-      return true;
-    } catch (const CLI::ValidationError& error) {
-      const std::string said = error.what(), before = long_name(about->name) + ": ";
-      refuse(settings::option_name(*about), said.starts_with(before) ? said.substr(before.size()) : said);
-    }
+bool gives_itself(const CLI::App& command, const CLI::Option& option) {
+  const auto& texts = option.results();
+  return std::any_of(texts.begin(), texts.end(),
+                     [&](const std::string& text) { return !keyed(command, option.get_name(), text); });
+}
+
+bool read_key(CLI::App& command, const std::string& option, const std::string& text,
+              const settings::Given& leave) {
+  const auto key = keyed(command, option, text);
+  if (!key) return false;
+  if (leave.contains(key->about->name)) return true;
+  CLI::Option& target = *option_for(command, *key->about);
+  try {
+    if (!target.empty() && !target.get_callback_run()) target.run_callback();  // what its old name was given
+    target.clear();
+    target.add_result(key->value);
+    target.run_callback();
+  } catch (const CLI::ValidationError& error) {
+    const std::string said = error.what(), before = long_name(key->about->name) + ": ";
+    refuse(settings::option_name(*key->about), said.starts_with(before) ? said.substr(before.size()) : said);
   }
-  return false;
+  return true;
+}
+
+std::vector<std::string> with_whole_vectors(const CLI::App& command, const std::string& option,
+                                            const std::vector<std::string>& texts) {
+  std::vector<std::string> whole;
+  std::ptrdiff_t missing = 0;  // numbers of the last one
+  for (const std::string& text : texts) {
+    if (missing > 0) {
+      whole.back() += "," + text, --missing;
+      continue;
+    }
+    whole.push_back(text);
+    if (const auto key = keyed(command, option, text))
+      missing = std::ranges::count(key->about->value, ',') - std::ranges::count(key->value, ',');
+  }
+  return whole;
 }
 
 bool is_outdated(const CLI::Option& option) {
@@ -207,8 +248,7 @@ std::string did_you_mean(const CLI::App& command) {
       for (const std::string& name : option->get_lnames()) known.push_back(name);
   for (const std::string& argument : command.remaining()) {
     if (!argument.starts_with("--")) continue;
-    const std::string nearest = settings::nearest_word(argument.substr(2, argument.find('=') - 2), known);
-    return nearest.empty() ? "" : fmt::format(" (did you mean --{}?)", nearest);
+    return settings::did_you_mean(argument.substr(2, argument.find('=') - 2), known, "--{}");
   }
   return "";
 }
@@ -216,11 +256,12 @@ std::string did_you_mean(const CLI::App& command) {
 namespace {
 
 /// Names and helps in two columns.
-std::string help_rows(const std::vector<std::pair<const About*, CLI::Option*>>& settings,
-                      std::string_view before, std::string_view behind) {
+std::string help_rows(CLI::App& command, const std::vector<const About*>& settings, std::string_view before,
+                      std::string_view behind) {
   constexpr std::size_t column = 34;
   std::string text;
-  for (const auto& [about, option] : settings) {
+  for (const About* about : settings) {
+    const CLI::Option* option = option_for(command, *about);
     const std::string value =
         option->get_expected_min() == 0 ? "" : fmt::format("{}{}", behind, option->get_type_name());
     const std::string name = fmt::format("  {}{}{}", before, about->name, value);
@@ -242,8 +283,8 @@ std::string further_help(CLI::App& command) {
       "Settings for the papers' experiments: tenebra {0} --paper KEY=VALUE, which may be repeated. The "
       "defaults are the\n"
       "better methods; pictures are the same with most of these.\n\n{2}",
-      command.get_name(), help_rows(rare_settings(command), "--", " "),
-      help_rows(settings_by(command, paper_option), "", "="));
+      command.get_name(), help_rows(command, rare_settings(command), "--", " "),
+      help_rows(command, settings_by(command, paper_option), "", "="));
 }
 
 }  // namespace tenebra::viewer

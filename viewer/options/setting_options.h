@@ -42,14 +42,21 @@ void add_settings(CLI::App& command, std::span<const settings::Setting<Part>> ta
   complete_settings(command);
 }
 
-/// Names of the settings that the user gave, by --paper too.
+/// Names of the settings that the user gave, by keys too.
 settings::Given given_settings(const CLI::App& command);
+/// Whether `option` was given a value of its own: more than keys of other settings.
+bool gives_itself(const CLI::App& command, const CLI::Option& option);
 
-/// What a text for a key does where the key has a value already.
-enum class IfGiven { replace, leave };
 /// Where `text` is KEY=VALUE or KEY:VALUE with the key of a setting that is given by `option` ("--paper
-/// variant="), gives that setting its value; false: it is not. Throws CLI::ValidationError.
-bool read_key(CLI::App& command, const std::string& option, const std::string& text, IfGiven if_given);
+/// variant="), gives that setting its value, unless it is one of `leave`; false: it is not. Throws
+/// CLI::ValidationError.
+bool read_key(CLI::App& command, const std::string& option, const std::string& text,
+              const settings::Given& leave = {});
+
+/// `texts` of a file for `option`, with the vectors of keys whole that the file's parser took for lists:
+/// facing=0,1,0.
+std::vector<std::string> with_whole_vectors(const CLI::App& command, const std::string& option,
+                                            const std::vector<std::string>& texts);
 
 /// Whether the option is there for an old name alone.
 bool is_outdated(const CLI::Option& option);
