@@ -10,6 +10,7 @@
 #include "session/session.h"
 #include "shared/render_plan.h"
 #include "viewer_picture.h"
+#include "window/view_state.h"
 
 namespace tenebra::testing {
 namespace {
@@ -134,6 +135,17 @@ TEST(Tone, IsNeutralForLinearColoursAndNoneForDisplayValues) {
   options.tone = shade::Tone::aces;
   EXPECT_EQ(viewer::tone_of(options, Transfer::display), shade::Tone::aces);
   EXPECT_EQ(viewer::render_settings(options, {8, 8}, {}).tone, shade::Tone::aces);
+}
+
+TEST(AutoExposure, IsMeasuredAnewInTheWindowOnlyAfterEdits) {
+  viewer::ViewState state;
+  EXPECT_FALSE(state.is_metered());
+  state.display.exposures = settings::AutoExposures{};
+  EXPECT_TRUE(state.is_metered());
+  state.light_edit(0).intensity = 2;
+  EXPECT_FALSE(state.is_metered());
+  state.metered_edits = state.edits;
+  EXPECT_TRUE(state.is_metered());
 }
 
 }  // namespace

@@ -19,10 +19,19 @@ namespace {
 
 using testing::TemporaryFolder;
 
+SceneOptions scene_in(const std::filesystem::path& file) {
+  SceneOptions scene;
+  scene.file = file.string();
+  return scene;
+}
+
 /// A picture to draw on and a viewer that draws. Keys are GLFW's codes; a letter's is its capital.
 class HeadlessViewer {
 public:
   HeadlessViewer(const std::filesystem::path& scene, Size window, float scale = 1,
+                 double preview_ms = default_preview_ms)
+      : HeadlessViewer(scene_in(scene), window, scale, preview_ms) {}
+  HeadlessViewer(const SceneOptions& scene, Size window, float scale = 1,
                  double preview_ms = default_preview_ms)
       : window_(window),
         scale_(scale),
@@ -35,7 +44,7 @@ public:
     apply_style(scale);
     gl_.emplace(std::move(*WindowGl::load(context_.function_loader(), true)));
     ViewOptions options;
-    options.scene.file = scene.string();
+    options.scene = scene;
     options.shots = OutputPattern::parse((folder_ / "shot_%d.png").string()).value();
     options.log = (folder_ / "frames.csv").string();
     options.report = (folder_ / "report.jsonl").string();
@@ -178,6 +187,24 @@ TEST(ViewPanel, BadFilesShowTheirMessageAndKeepTheScene) {
   const auto number = [&] { return headless.viewer().picture()->scene; };
   EXPECT_TRUE(headless.turn_until([&] { return number() == headless.viewer().state().scene; }))
       << "the good one shows";
+}
+
+TEST(ViewPanel, TurnsSunsInTheAxesOfTheFile) {
+  const TemporaryFolder folder;
+  SceneOptions scene = scene_in(testing::write_moving_scene(folder));
+  scene.import.placement.up = UpAxis::z;
+  scene.edits.added.push_back({.type = LightType::directional, .direction = glm::vec3(0.48f, 0.64f, -0.6f)});
+  HeadlessViewer headless(scene, {1280, 1400});
+  ASSERT_TRUE(headless.wait_for_first_picture());
+  ASSERT_TRUE(headless.click("section.Lights"));
+  headless.turn();
+  ASSERT_TRUE(headless.click("light.1.height"));  // in its middle: on the horizon
+  const auto direction = [&] {
+    return stage::edit_of(headless.viewer().state().edits.lights, 1).direction.value_or(glm::vec3(0.0f));
+  };
+  EXPECT_LT(glm::distance(direction(), glm::vec3(0.6f, 0.8f, 0)), 0.03f) << "Z is up in the file";
+  ASSERT_TRUE(headless.click("light.1.height"));  // now from the edit, and it is there
+  EXPECT_LT(glm::distance(direction(), glm::vec3(0.6f, 0.8f, 0)), 0.03f);
 }
 
 TEST(ViewPanel, CancelsWhatTakesLong) {

@@ -70,6 +70,7 @@ void start_scene(ViewState& state, std::shared_ptr<const session::StagedScene> s
   state.pivot_asked = false;
   state.edits = state.options.edits;
   state.display = state.scene->display;
+  state.metered_edits = state.edits;
   state.selected_light = state.selected_node = state.selected_material = -1;
   take_light(state, first ? state.slots[0].render.light : -1);
   measure_scene(state);

@@ -52,8 +52,9 @@ struct ViewState {
   Overlay overlay = Overlay::none;
   float overlay_opacity = 0.85f;
 
-  SceneDisplay display;  ///< the scene's, with exposures once they were asked for
-  float diagonal_m = 1;  ///< of the scene at its first frame
+  SceneDisplay display;             ///< the scene's, with exposures once they were asked for
+  stage::SceneEdits metered_edits;  ///< that display's exposures are of
+  float diagonal_m = 1;             ///< of the scene at its first frame
   glm::vec3 centre{0.0f};
   glm::vec3 half_size_m{0.5f};  ///< of the box around it
 
@@ -72,6 +73,8 @@ struct ViewState {
     pivot.reset();
     pivot_asked = false;
   }
+  /// Whether display has the exposures of the scene as edited.
+  bool is_metered() const { return display.exposures && metered_edits == edits; }
   MethodOptions& method() { return slots[static_cast<std::size_t>(active)]; }
   stage::LightEdit& light_edit(int light) { return edits.light(light); }
   int light_count() const { return static_cast<int>(scene->scene.lights.size() + edits.added.size()); }

@@ -181,7 +181,7 @@ void Viewer::update() {
     if (!metered.exposures)
       say(metered.exposures.error().message, true);
     else if (metered.scene == state_.scene)
-      state_.display.exposures = *metered.exposures;
+      state_.display.exposures = *metered.exposures, state_.metered_edits = metered.edits;
   }
   for (auto& answer : answers_.take()) {
     if (answer)
@@ -231,7 +231,7 @@ void Viewer::act() {
   if (actions.window_shot) window_shot_ = true, pace_.ask(1);
   if (actions.toggle_log) toggle_log();
   if (actions.focus && picture_) worker_.pick(*actions.focus);
-  if (actions.meter && state_.scene) {
+  if (actions.meter && state_.scene && !state_.is_metered()) {
     SceneOptions options = state_.options;
     options.edits = state_.edits;
     worker_.meter(state_.scene, std::move(options));

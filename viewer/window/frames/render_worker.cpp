@@ -197,7 +197,7 @@ void RenderWorker::meter_scene(std::unique_lock<std::mutex>& lock) {
   auto exposures =
       within_memory([&] { return session::meter_exposures(**asked.scene, asked.options); }, [] {});
   lock.lock();
-  results_.metered.push_back({*asked.scene, std::move(exposures)});
+  results_.metered.push_back({*asked.scene, asked.options.edits, std::move(exposures)});
   publish(lock);
 }
 

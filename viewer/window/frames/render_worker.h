@@ -34,9 +34,10 @@ struct OpenedScene {
   Expected<std::shared_ptr<const session::StagedScene>> scene;
 };
 
-/// What an automatic exposure of this scene is.
+/// What an automatic exposure of this scene is, as edited.
 struct MeteredScene {
   std::shared_ptr<const session::StagedScene> scene;
+  stage::SceneEdits edits;
   Expected<settings::AutoExposures> exposures;
 };
 

@@ -8,10 +8,12 @@
 namespace tenebra::viewer {
 namespace {
 
-/// As the picture has it: the light's own, the method's or the scene's.
+/// As soft shadows have it: the light's own, the method's, the scene's, or a sun's.
 float diameter_of(const Ui& ui, const Light& light, const stage::LightEdit& edit) {
-  const std::optional<float>& of_all = ui.state.method().render.area_lights.sun_deg;
-  return edit.diameter_deg.value_or(of_all.value_or(light.diameter_deg));
+  const MethodOptions& method = ui.state.method();
+  const float unsized = gives_no_size(method) ? 0 : unsized_sun_deg;
+  const float of_scene = light.diameter_deg > 0 ? light.diameter_deg : unsized;
+  return edit.diameter_deg.value_or(method.render.area_lights.sun_deg.value_or(of_scene));
 }
 
 /// A directional light with a disc is a sun.
@@ -69,7 +71,8 @@ std::string method_of(const Ui& ui, int index) {
   return "";
 }
 
-/// A direction to a light, or in which a light shines: by compass and height, as the sun's.
+/// A direction to a light, or in which a light shines, in the scene's axes: by compass and height, as the
+/// sun's.
 struct Bearing {
   float compass_deg = 0;  ///< 0 is -Z, 90 is +X
   float height_deg = 0;   ///< above the ground, +Y up
@@ -89,9 +92,10 @@ glm::vec3 direction_of(Bearing bearing) {
   return {std::cos(height) * std::sin(compass), std::sin(height), -std::cos(height) * std::cos(compass)};
 }
 
-/// Where the light shines as the picture has it, with its edit.
+/// Where the light shines as the picture has it, with its edit, in the scene's axes.
 glm::vec3 direction_now(const Ui& ui, int index, const stage::LightEdit& edit) {
-  if (edit.direction) return *edit.direction;
+  const FileFrame& frame = ui.state.display.frame;
+  if (edit.direction) return glm::vec3(frame.direction_to_scene(glm::dvec3(*edit.direction)));
   for (const WorldLight& placed : ui.picture ? ui.picture->lights : std::vector<WorldLight>{}) {
     if (placed.light == index) return placed.direction;
   }
@@ -110,7 +114,9 @@ void edit_direction(Ui& ui, int index, LightType type, stage::LightEdit& edit) {
   changed |= ImGui::SliderFloat("##height", &bearing.height_deg, -89.9f, 89.9f, "%.1f deg",
                                 ImGuiSliderFlags_AlwaysClamp);
   ui.mark(fmt::format("light.{}.height", index));
-  if (changed) edit.direction = sign * direction_of(bearing);
+  if (!changed) return;
+  const glm::dvec3 turned(sign * direction_of(bearing));
+  edit.direction = glm::vec3(ui.state.display.frame.direction_to_file(turned));
 }
 
 void edit_values(Ui& ui, int index, const Light& light, stage::LightEdit& edit) {
