@@ -9,6 +9,7 @@ SceneSettings settings_for(const std::string& file, const SceneSettings& before)
   scene.file = file;
   scene.import = before.import;
   scene.import.scene.clear();
+  scene.import.root.clear();
   scene.import.placement = {};
   scene.cutout_limit = before.cutout_limit;
   scene.cast_all = before.cast_all;

@@ -131,6 +131,7 @@ TEST(ViewCommand, AnotherFileKeepsWhatSpeaksOfNoPartOfTheScene) {
   viewer::SceneOptions options;
   options.file = "a.glb";
   options.import.scene = "second";
+  options.import.root = "models";
   options.import.texture_paths = {"pictures"};
   options.transfer = Transfer::display;
   options.environment = "sky.hdr";
@@ -146,7 +147,7 @@ TEST(ViewCommand, AnotherFileKeepsWhatSpeaksOfNoPartOfTheScene) {
   EXPECT_EQ(other.environment, "sky.hdr");
   EXPECT_TRUE(other.plain && other.cast_all);
   EXPECT_EQ(other.cutout_limit, 7);
-  EXPECT_TRUE(other.import.scene.empty() && other.no_cast.empty());
+  EXPECT_TRUE(other.import.scene.empty() && other.import.root.empty() && other.no_cast.empty());
   EXPECT_FALSE(other.camera || other.clip);
 }
 
