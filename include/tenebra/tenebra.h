@@ -123,7 +123,7 @@ typedef struct tenebra_area_light {
 /** Options of all calls. */
 typedef struct tenebra_options {
   size_t struct_size;   /**< sizeof(tenebra_options) */
-  int32_t threads;      /**< at most this many; 0: all cores. Answers do not depend on it */
+  int32_t threads;      /**< at most this many, 1 to 1024; 0: all cores. No answer depends on it */
   double soft_error;    /**< allowed in soft shadows, 1/255 of white, RMS over the penumbra; 0: exact */
   double ao_error;      /**< allowed in ambient occlusion, 1/255, RMS over the points; 0.1 to 255 */
   double ao_distance_m; /**< where occlusion has fallen off to nothing; 0: a twentieth of the diagonal */

@@ -9,7 +9,7 @@ the origin (maps), from points and from lights; then positions are rounded once 
 are float64. Calls that ask about points, and render, release Python's lock, end on
 Ctrl-C, and take the keywords
 
-threads: the largest number of threads to use; 0: all cores. Answers do not depend on it.
+threads: the largest number of threads to use, 1 to 1024; 0: all cores. Answers do not depend on it.
 progress: called on this thread now and then with the part that is done, 0 to 1.
 
 Arguments that a call cannot use raise a TypeError (not an array of numbers, floats as indices) or a ValueError (shapes,
@@ -72,7 +72,6 @@ class Geometry:
         geometry."""
         array = _positions("positions", positions)
         self._core.move_vertices(_of_each("positions", array, (self._vertices, 3)))
-
 
     @property
     def origin(self) -> Tuple[float, float, float]:
@@ -320,7 +319,9 @@ def _keywords(options: Dict[str, Any]) -> List[Tuple[str, str]]:
 def _check_names(call: str, options: Dict[str, Any], known: frozenset) -> None:
     for name in options:
         if name not in known:
-            raise TypeError(f"{call}: found {name}, expected one of {', '.join(sorted(known))}")
+            names = sorted(known)
+            nearest = _core.did_you_mean(name, names)
+            raise TypeError(f"{call}: found {name}{nearest}, expected one of {', '.join(names)}")
 
 
 class Scene:
@@ -334,7 +335,8 @@ class Scene:
     @classmethod
     def load(cls, path: Union[str, os.PathLike], **options: Any) -> Scene:
         """Reads a file, and adds a camera and light where it has none. options: those of `tenebra render` that
-        concern the scene, with _ for -: no_cast, transfer, environment, clip, fps, set_light and the like."""
+        concern the scene, with _ for -: no_cast, transfer, environment, clip, fps, set_light and the like. Places and
+        ways that go in and come out have the axes and units of the file."""
         return cls(path, **options)
 
     @property
@@ -364,6 +366,7 @@ class Scene:
 
         size: width and height in pixels. options: those of `tenebra render` that concern the camera and the
         method, with _ for -: shadows="soft", ao="adaptive", soft_error=1, eye=(x, y, z), look_at=..., threads=2,
+        keys of other options by names of their own (light_facing, sun_size, soft_memory, variant),
         and aov=("depth", "normal", ...), which adds arrays to the dict.
 
         Returns a dict of arrays with h rows of w pixels, row 0 at the top:
@@ -372,17 +375,17 @@ class Scene:
         masks: by the light's number, (h, w) uint8, 255 lit to 0.
         visible_fraction: the same as (h, w) float32, with soft shadows.
         triangles: (h, w) uint32, the triangle that each pixel sees, or no_triangle.
-        positions, normals: with points=True, (h, w, 3) float64, the point that each pixel sees, metres, and
-        (h, w, 3) float32, the unit normal with which it is shaded; both meaningless on the background.
+        positions, normals: with points=True, (h, w, 3) float64, the point that each pixel sees, in the units of the
+        file, and (h, w, 3) float32, the unit normal with which it is shaded; both meaningless on the background.
         view: the camera's eye and rays (eye, d0, dx, dy, orthographic: the ray through pixel (x, y) runs along
-        d0 + (x + 0.5) dx + (y + 0.5) dy).
+        d0 + (x + 0.5) dx + (y + 0.5) dy), in the units of the file.
         timings: milliseconds of each stage, with the names of the program's log.
         notes: sentences that a user should see once.
 
         The words of aov add arrays for the opaque surface at each pixel's centre:
         depth: (h, w) float32, metres along the view axis, infinite on the background.
         id: triangles as above, with part and material, (h, w) uint32 (the mesh at its node, the material's number).
-        normal: (h, w, 3) float32, unit, on the eye's side.
+        normal: (h, w, 3) float32, unit, on the eye's side, in the axes of the file.
         visibility: by the light's number, (h, w) float32, 0 to 1, with any shadows.
         irradiance: (h, w, 3) float32, from all lights, lux.
         ao: (h, w) float32, 1 open to 0 closed.
@@ -406,6 +409,6 @@ class Scene:
 
     def lights(self, frame: int = 0, *, time: Optional[float] = None) -> List[Dict[str, Any]]:
         """The lights of an instant, by their numbers: type (point, spot, directional, rectangle or disc), name,
-        position, direction (the way it shines), half_x and half_y (of rectangles and discs), color, intensity,
-        range_m (0: unbounded), outer_cone_rad."""
+        position, direction (the way it shines), half_x and half_y (of rectangles and discs), in the units of the file,
+        color, intensity, range_m (metres; 0: unbounded), outer_cone_rad."""
         return self._core.lights(self._core.time_of(frame) if time is None else time)

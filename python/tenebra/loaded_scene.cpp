@@ -1,11 +1,8 @@
 #include "loaded_scene.h"
 
-#include <algorithm>
-
 #include "base/fail.h"
 #include "session/aovs.h"
 #include "session/auto_exposure.h"
-#include "settings/nearest_word.h"
 
 namespace tenebra::python {
 namespace {
@@ -44,11 +41,6 @@ Expected<bool> set(std::span<const Setting<Part>> table, const std::pair<std::st
   return false;
 }
 
-tl::unexpected<Error> unknown(const std::string& name, const std::vector<std::string>& known) {
-  const std::string nearest = settings::nearest_word(name, known);
-  return base::fail("found no setting {}{}", name, nearest.empty() ? "" : ", did you mean " + nearest + "?");
-}
-
 const auto any = [](const settings::About&) { return true; };
 
 }  // namespace
@@ -73,7 +65,6 @@ Expected<std::unique_ptr<LoadedScene>> LoadedScene::load(const std::string& path
   for (const auto& keyword : keywords) {
     const auto found = set(settings::scene_table(), keyword, is_of_scene, loaded->settings_);
     if (!found) return tl::unexpected(found.error());
-    if (!*found) return unknown(keyword.first, names_of_scene());
   }
   auto session = session::Session::open(loaded->settings_, {.kind = render::RasterKind::cpu});
   if (!session) return tl::unexpected(session.error());
@@ -95,10 +86,7 @@ Expected<LoadedScene::Wish> LoadedScene::wish_of(const Keywords& keywords) const
     auto found = set(settings::scene_table(), keyword, is_of_picture, wish.scene);
     if (found && !*found) found = set(settings::method_table(), keyword, any, wish.method);
     if (!found) return tl::unexpected(found.error());
-    if (!*found) return unknown(keyword.first, names_of_render());
-    std::string name = keyword.first;
-    std::replace(name.begin(), name.end(), '_', '-');
-    given.insert(std::move(name));
+    given.insert(settings::dashed(keyword.first));
   }
   settings::settle_quality(given, wish.method);
   if (!wish.method.terminator) wish.method.terminator = render::Terminator::flat;  // as with any mask

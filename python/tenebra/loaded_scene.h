@@ -32,7 +32,7 @@ std::vector<std::string> names_of_render();
 /// A scene made ready as `tenebra render` makes it, drawn on the CPU.
 class LoadedScene {
 public:
-  /// `keywords`: settings of the scene, but for the camera's and the moment's.
+  /// `keywords`: of names_of_scene(): settings of the scene, but for the camera's and the moment's.
   static Expected<std::unique_ptr<LoadedScene>> load(const std::string& path, const Keywords& keywords);
 
   struct Picture {
@@ -47,7 +47,7 @@ public:
     bool points = false;  ///< Picture::points' positions, and normals
     bool linear = false;
   };
-  /// `keywords`: settings of the camera, of the size and of the method, and aov.
+  /// `keywords`: of names_of_render(): settings of the camera, of the size and of the method, and aov.
   Expected<Picture> render(int frame, std::optional<double> time_s, const Keywords& keywords, Wanted wanted,
                            Work& work);
 

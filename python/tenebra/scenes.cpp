@@ -8,6 +8,7 @@
 #include "module_parts.h"
 #include "render/log/frame_columns.h"
 #include "session/scene_summary.h"
+#include "settings/nearest_word.h"
 
 namespace tenebra::python {
 namespace {
@@ -22,6 +23,18 @@ std::vector<glm::dvec3> in_file(const FileFrame& frame, const std::vector<Vector
 }
 void turn_to_file(const FileFrame& frame, std::vector<glm::vec3>& directions) {
   for (glm::vec3& d : directions) d = glm::vec3(frame.direction_to_file(glm::dvec3(d)));
+}
+/// Three numbers a pixel.
+void turn_to_file(const FileFrame& frame, io::ImageF& directions) {
+  std::vector<float>& d = directions.pixels;
+  for (std::size_t i = 0; i < d.size(); i += 3) {
+    const glm::vec3 turned(frame.direction_to_file({d[i], d[i + 1], d[i + 2]}));
+    d[i] = turned.x, d[i + 1] = turned.y, d[i + 2] = turned.z;
+  }
+}
+/// A way through the scene, in the axes and units of its file.
+py::tuple way_in_file(const FileFrame& frame, const glm::vec3& way) {
+  return tuple_of(frame.direction_to_file(glm::dvec3(way)) / frame.metres_per_unit);
 }
 
 py::dict geometry_dict(const FileFrame& frame, FrameGeometry&& geometry) {
@@ -44,16 +57,15 @@ py::list light_list(const LoadedScene& scene, double time_s) {
   Scene edited;
   edited.lights = stage::lights_of(scene.staged().scene, scene.edits());
   const FileFrame& frame = scene.staged().scene.frame;
-  const auto turned = [&](const glm::vec3& v) { return tuple_of(frame.direction_to_file(glm::dvec3(v))); };
   for (const WorldLight& placed : input.lights) {
     const Light light = light_at(edited, placed);
     py::dict entry;
     entry["type"] = std::string(session::light_type_name(light.type));
     entry["name"] = light.name;
     entry["position"] = tuple_of(frame.to_file(glm::dvec3(placed.position)));
-    entry["direction"] = turned(placed.direction);
-    entry["half_x"] = turned(placed.axis_x);
-    entry["half_y"] = turned(placed.axis_y);
+    entry["direction"] = tuple_of(frame.direction_to_file(glm::dvec3(placed.direction)));
+    entry["half_x"] = way_in_file(frame, placed.axis_x);
+    entry["half_y"] = way_in_file(frame, placed.axis_y);
     entry["color"] = tuple_of(light.color);
     entry["intensity"] = light.intensity;
     entry["range_m"] = light.range_m.value_or(0.0f);
@@ -64,10 +76,10 @@ py::list light_list(const LoadedScene& scene, double time_s) {
 }
 
 py::dict view_dict(const FileFrame& frame, const ViewRays& view) {
-  const auto turned = [&](const glm::vec3& v) { return tuple_of(frame.direction_to_file(glm::dvec3(v))); };
   py::dict out;
-  out["eye"] = tuple_of(frame.to_file(glm::dvec3(view.eye))), out["d0"] = turned(view.d0);
-  out["dx"] = turned(view.dx), out["dy"] = turned(view.dy);
+  out["eye"] = tuple_of(frame.to_file(glm::dvec3(view.eye)));
+  out["d0"] = way_in_file(frame, view.d0);
+  out["dx"] = way_in_file(frame, view.dx), out["dy"] = way_in_file(frame, view.dy);
   out["orthographic"] = view.orthographic;
   return out;
 }
@@ -84,8 +96,8 @@ py::dict timings_dict(const FrameTimings& timings) {
 }
 
 /// What was asked for with --aov, under the words of that option.
-void add_aovs(const render::AovChoice& wanted, render::Aovs&& aovs, py::ssize_t height, py::ssize_t width,
-              py::dict& out) {
+void add_aovs(const FileFrame& frame, const render::AovChoice& wanted, render::Aovs&& aovs,
+              py::ssize_t height, py::ssize_t width, py::dict& out) {
   const auto add_picture = [&](const char* name, io::ImageF& from) {
     if (!from.pixels.empty()) out[name] = image(std::move(from));
   };
@@ -96,6 +108,7 @@ void add_aovs(const render::AovChoice& wanted, render::Aovs&& aovs, py::ssize_t 
   add_numbers("id", aovs.ids);
   add_numbers("part", aovs.parts);
   add_numbers("material", aovs.materials);
+  turn_to_file(frame, aovs.normal);
   add_picture("normal", aovs.normal);
   add_picture("irradiance", aovs.irradiance);
   add_picture("ao", aovs.openness);
@@ -126,7 +139,7 @@ py::dict picture_dict(const FileFrame& frame, LoadedScene::Picture&& picture) {
     out["positions"] = given_away_vectors(in_file(frame, picture.points.positions), {height, width});
     out["normals"] = given_away_vectors(std::move(picture.normals), {height, width});
   }
-  add_aovs(picture.aovs, std::move(result.aovs), height, width, out);
+  add_aovs(frame, picture.aovs, std::move(result.aovs), height, width, out);
   out["triangles"] = given_away(std::move(picture.points.triangles), {height, width});
   out["view"] = view_dict(frame, picture.view);
   out["timings"] = timings_dict(result.timings);
@@ -140,6 +153,9 @@ void add_scenes(py::module_& module) {
   using Loaded = LoadedScene;
   module.def("names_of_scene", &names_of_scene);
   module.def("names_of_render", &names_of_render);
+  module.def("did_you_mean", [](const std::string& name, const std::vector<std::string>& known) {
+    return settings::did_you_mean(name, known);
+  });
   py::class_<Loaded>(module, "Scene")
       .def(py::init([](const std::string& path, const Keywords& keywords) {
         std::unique_ptr<Loaded> loaded;

@@ -69,21 +69,27 @@ def shadow_light(light):
     return tenebra.PointLight(light["position"], range_m=light["range_m"], **spot)
 
 
-def test_map_coordinates(tmp_path):
-    """A plate over a floor under a node in map coordinates: what comes out is the file's."""
+def write_plate(path, place):
+    """A plate over a floor under a node, as glTF; its six corners."""
     corners = np.array([[-4, 0, 4], [4, 0, 4], [4, 0, -4], [-1, 1, 1], [1, 1, 1], [1, 1, -1]], "<f4").tobytes()
     buffer = "data:application/octet-stream;base64," + base64.b64encode(corners).decode()
-    place = [691234.25, 0, -5334567.5]
-    (tmp_path / "far.gltf").write_text(json.dumps({
+    path.write_text(json.dumps({
         "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
         "nodes": [{"mesh": 0, "translation": place}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
         "accessors": [{"bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3", "min": [-4, 0, -4],
                        "max": [4, 1, 4]}],
         "bufferViews": [{"buffer": 0, "byteLength": 72}], "buffers": [{"byteLength": 72, "uri": buffer}]}))
+    return np.frombuffer(corners, "<f4").reshape(6, 3)
+
+
+def test_map_coordinates(tmp_path):
+    """What comes out is the file's."""
+    place = [691234.25, 0, -5334567.5]
+    corners = write_plate(tmp_path / "far.gltf", place)
     scene = tenebra.Scene.load(tmp_path / "far.gltf", floor="none")
     shape = scene.geometry()
     assert shape["positions"].dtype == np.float64
-    assert (shape["positions"] == np.frombuffer(corners, "<f4").reshape(6, 3) + np.array(place)).all()
+    assert (shape["positions"] == corners + np.array(place)).all()
     picture = scene.render(size=SIZE, points=True, eye=(place[0], 6, place[2] + 0.5), look_at=place)
     seen = picture["triangles"] != tenebra.no_triangle
     assert seen.any() and np.abs(picture["positions"][seen] - place).max() < 4.001
@@ -91,6 +97,24 @@ def test_map_coordinates(tmp_path):
     mask = tenebra.hard_mask(geometry, picture["positions"][seen], shadow_light(scene.lights()[0]),
                              on=picture["triangles"][seen])
     assert (mask == picture["masks"][0][seen]).mean() > 0.99, "the sides of triangles are the light's"
+
+
+def test_axes_and_units(tmp_path):
+    """Centimetres with Z up: ways and normals are the file's too."""
+    write_plate(tmp_path / "plate.gltf", [0, 0, 0])
+    light = {"add_light": "point position=0,-500,0 intensity=1", "set_light": "0 size=0.5x0.3"}
+    scene = tenebra.Scene.load(tmp_path / "plate.gltf", unit="cm", up_axis="z", floor="none", **light)
+    lamp = scene.lights()[0]
+    assert lamp["position"] == pytest.approx((0, -500, 0), abs=1e-3)
+    assert [np.linalg.norm(lamp[half]) for half in ("half_x", "half_y")] == pytest.approx([25, 15], rel=1e-5)
+    picture = scene.render(size=SIZE, points=True, aov="normal", eye=(0, 9, 0.5), look_at=(0, 0, 0), up=(0, 0, 1))
+    seen = picture["triangles"] != tenebra.no_triangle
+    assert seen.any() and (abs(picture["normal"][seen] - (0, 1, 0)) < 1e-6).all(), "both plates lie along X and Z"
+    assert np.array_equal(picture["normal"][seen], picture["normals"][seen])
+    view = {name: np.array(way) for name, way in picture["view"].items() if name != "orthographic"}
+    y, x = np.argwhere(seen)[0]
+    ray = view["d0"] + (x + 0.5) * view["dx"] + (y + 0.5) * view["dy"]
+    assert np.linalg.norm(np.cross(ray, picture["positions"][y, x] - view["eye"])) < 1e-3 * np.linalg.norm(ray)
 
 
 # First and last frame, and the step: four frames of each of BART's scenes.
@@ -138,7 +162,8 @@ def test_methods_and_cameras():
     assert soft["linear"].dtype == np.float32 and soft["timings"]["ao_ms"] > 0
     above = scene.render(size=(48, 32), eye=(0, 50, 0), look_at=(0, 0, 0), up=(0, 0, 1), fov=40, shadows="none")
     assert above["view"]["eye"] == (0, 50, 0) and above["masks"] == {}
-    assert scene.render(size=(8, 8), time=0.5)["image"].shape == (8, 8, 3)
+    keys = {"sun_size": 1, "light_facing": (0, 1, 0), "soft_memory": 300, "variant": "Spheres"}
+    assert scene.render(size=(8, 8), time=0.5, **keys)["image"].shape == (8, 8, 3)
 
 
 @pytest.fixture(scope="module")
@@ -152,6 +177,7 @@ def city():
     (lambda scene: scene.render(size=(0, 8)), ValueError, "size: found 0x8"),
     (lambda scene: scene.render(no_cast="roof"), TypeError, "no_cast, which belongs to Scene.load"),
     (lambda scene: scene.render(colour="red"), TypeError, "render: found colour, expected one of .*shadows"),
+    (lambda scene: scene.render(shadow="soft"), TypeError, r"found shadow \(did you mean shadows\?\), expected"),
     (lambda scene: tenebra.Scene.load("nothing.glb"), ValueError, "nothing.glb"),
     (lambda scene: tenebra.Scene.load("nothing.glb", shadows="soft"), TypeError, "Scene.load: found shadows"),
     (lambda scene: tenebra.Scene.load(ROOT / "scenes" / "city.glb", clip="none's \"`"), ValueError, "none's"),

@@ -26,7 +26,9 @@ constexpr const char* heading =
     "`tenebra COMMAND --help` has the rest. In a file of options (`--config`) the names stand without "
     "dashes, in Python "
     "with\n"
-    "`_` for `-`. What changes nothing but time or files leaves every bit of every picture as it is.\n";
+    "`_` for `-`; there, keys of other options are keywords of their own: `sun_size=1`, "
+    "`light_facing=(0, 1, 0)`, `soft_memory=300`, `variant=\"Spheres\"`.\n"
+    "What changes nothing but time or files leaves every bit of every picture as it is.\n";
 
 struct PageRow {
   const About* about;
