@@ -1,4 +1,5 @@
 // The tables of settings: what every row promises, whoever reads it.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -82,20 +83,21 @@ void expect_round_trip(std::span<const Setting<Part>> table) {
   EXPECT_EQ(arguments(table, Part{}), "");
   for (const Setting<Part>& setting : table) {
     const std::string value = other_value(setting);
-    Part part, again;
-    if (setting.name == "look-at") {
-      ASSERT_TRUE(find(table, "eye")->read(part, "0,0,1"));
+    Part base;
+    if (const auto* needed = find(table, setting.needs)) {
+      ASSERT_TRUE(needed->read(base, other_value(*needed))) << setting.name;
     }
+    Part part = base, again = base;
     const auto read = setting.read(part, value);
     ASSERT_TRUE(read) << setting.name << ": " << read.error().message;
     ASSERT_EQ(setting.texts(part), std::vector<std::string>{value}) << setting.name;
     ASSERT_TRUE(setting.read(again, setting.texts(part).front())) << setting.name;
-    EXPECT_FALSE(setting.same(part, Part{})) << setting.name;
-    EXPECT_TRUE(setting.same(part, again) || setting.name == "look-at") << setting.name;
+    EXPECT_FALSE(setting.same(part, base)) << setting.name;
+    EXPECT_TRUE(setting.same(part, again)) << setting.name;
     EXPECT_NE(arguments(table, part).find(option_name(setting)), std::string::npos) << arguments(table, part);
-    if (const auto standard = setting.texts(Part{}); !standard.empty()) {
+    if (const auto standard = setting.texts(base); !standard.empty()) {
       ASSERT_TRUE(setting.read(part, standard.front())) << setting.name;
-      EXPECT_TRUE(setting.same(part, Part{}) || setting.name == "look-at") << setting.name;
+      EXPECT_TRUE(setting.same(part, base)) << setting.name;
     }
   }
 }
@@ -105,17 +107,24 @@ TEST(SettingTables, ReadWhatTheyWrite) {
   expect_round_trip(method_table());
 }
 
-TEST(SettingTables, RefuseOnOneSideOfEachRange) {
-  for (const auto& setting : method_table()) {
+template <class Part>
+void expect_bounds(std::span<const Setting<Part>> table) {
+  for (const Setting<Part>& setting : table) {
+    EXPECT_EQ(setting.expected.empty(), setting.range.high == 0) << setting.name;
     if (setting.expected.empty()) continue;
     for (const double outside : {std::floor(setting.range.low) - 1, setting.range.high * 2 + 1}) {
-      MethodSettings method;
-      const std::string text = std::to_string(static_cast<long>(outside));
-      const auto read = setting.read(method, text);
+      Part part;
+      const std::string text = fmt::format("{}", outside);
+      const auto read = setting.read(part, text);
       ASSERT_FALSE(read) << setting.name << " " << text;
       EXPECT_EQ(read.error().message, "found " + text + ", expected " + std::string(setting.expected));
     }
   }
+}
+
+TEST(SettingTables, RefuseBelowAndAboveEachRange) {
+  expect_bounds(scene_table());
+  expect_bounds(method_table());
 }
 
 TEST(SettingTables, TellMethodsApartByEverySetting) {
