@@ -1,11 +1,10 @@
-#include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <string_view>
 
 #include "base/fail.h"
+#include "io/header_words.h"
 #include "io/image.h"
 #include "io/input_file.h"
 
@@ -14,22 +13,12 @@ namespace {
 
 constexpr std::uint64_t most_pfm_pixels = std::uint64_t{1} << 26;
 constexpr std::size_t most_pfm_bytes = (std::size_t{1} << 30) + 4096;
-constexpr std::string_view spaces = " \t\r\n";
+constexpr std::string_view pfm_blanks = " \t\r\n";
 
-/// Takes the next word and the one space behind it off `text`.
-std::string_view take_word(std::string_view& text) {
-  text.remove_prefix(std::min(text.find_first_not_of(spaces), text.size()));
-  const std::string_view word = text.substr(0, text.find_first_of(spaces));
-  text.remove_prefix(std::min(word.size() + 1, text.size()));
-  return word;
-}
-
-/// What the whole word says; 0 for anything else.
+/// The number that `text` begins with, which is taken off it; 0 for anything else.
 template <class T>
-T number_of(std::string_view word) {
-  T number{};
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  return error == std::errc() && end == word.data() + word.size() ? number : T{};
+T take_number(std::string_view& text) {
+  return number_in<T>(take_header_word(text, pfm_blanks)).value_or(0);
 }
 
 void swap_bytes(std::vector<float>& values) {
@@ -43,12 +32,11 @@ Expected<ImageF> read_pfm(const std::filesystem::path& path) {
   const auto bytes = read_file(path, most_pfm_bytes);
   if (!bytes) return tl::unexpected(bytes.error());
   std::string_view rest = *bytes;
-  const std::string_view kind = take_word(rest);
+  const std::string_view kind = take_header_word(rest, pfm_blanks);
   if (kind != "PF" && kind != "Pf")
     return base::fail("{}: found no PFM picture, expected one that starts with PF or Pf", path.string());
-  const auto width = number_of<std::uint32_t>(take_word(rest)),
-             height = number_of<std::uint32_t>(take_word(rest));
-  const auto scale = number_of<double>(take_word(rest));
+  const auto width = take_number<std::uint32_t>(rest), height = take_number<std::uint32_t>(rest);
+  const auto scale = take_number<double>(rest);
   const std::uint64_t count = std::uint64_t{width} * height;
   if (width == 0 || height == 0 || count > most_pfm_pixels)
     return base::fail("{}: found {} x {} pixels, expected 1 to 2^26", path.string(), width, height);

@@ -2,13 +2,13 @@
 // describe them: flat rows, old runs and new runs, all eight orders of pixels, EXPOSURE and COLORCORR.
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "base/fail.h"
+#include "io/header_words.h"
 #include "io/image.h"
 #include "io/input_file.h"
 
@@ -23,9 +23,10 @@ using Pixel = std::array<std::uint8_t, 4>;  ///< three mantissas and the exponen
 
 /// What stands before the pixels.
 struct Header {
-  bool xyz = false;         ///< CIE XYZ in place of red, green, blue
-  Colour divisor{1, 1, 1};  ///< what the values were multiplied by: EXPOSURE and COLORCORR
-  bool columns = false;     ///< a scanline is a column
+  bool xyz = false;  ///< CIE XYZ in place of red, green, blue
+  /// What the values were multiplied by: the product of all EXPOSUREs and COLORCORRs, normal numbers.
+  std::array<double, 3> divisor{1, 1, 1};
+  bool columns = false;  ///< a scanline is a column
   bool from_bottom = false, from_right = false;
   std::size_t lines = 0, length = 0;  ///< scanlines, and the pixels of one
 };
@@ -40,44 +41,45 @@ std::optional<std::string_view> take_line(std::string_view& bytes) {
   return line;
 }
 
-std::string_view take_header_word(std::string_view& text) {
-  text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
-  const std::string_view word = text.substr(0, text.find_first_of(" \t"));
-  text.remove_prefix(word.size());
-  return word;
+std::string_view take_word_of_line(std::string_view& line) {
+  return take_header_word(line, " \t");
 }
 
-template <class T>
-std::optional<T> number_in(std::string_view word) {
-  T value{};
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size() ? std::optional(value) : std::nullopt;
-}
-
-/// Multiplies the divisor by one factor for all channels, or by one for each.
-bool take_factors(std::string_view text, int count, Colour& divisor) {
-  Colour factors{};
-  for (int i = 0; i < count; ++i) {
-    const auto factor = number_in<float>(take_header_word(text));
-    if (!factor || !(*factor > 0) || !std::isfinite(*factor)) return false;
-    factors[static_cast<std::size_t>(i)] = *factor;
+/// Multiplies the divisor by the factors of `line` behind its `=`: one for all channels, or one for each.
+/// Fails with a phrase.
+Expected<void> take_factors(std::string_view line, std::size_t count, Header& header) {
+  std::string_view text = line.substr(line.find('=') + 1);
+  std::array<double, 3> factors{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto factor = number_in<double>(take_word_of_line(text));
+    if (!factor || !(*factor > 0) || !std::isfinite(*factor))
+      return base::fail("found {}, expected {} above 0", line.substr(0, 60),
+                        count == 1 ? "a number" : "three numbers");
+    factors[i] = *factor;
   }
-  for (std::size_t i = 0; i < 3; ++i) divisor[i] *= factors[count == 1 ? 0 : i];
-  return true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    header.divisor[i] *= factors[count == 1 ? 0 : i];
+    if (!std::isnormal(header.divisor[i]))
+      return base::fail(
+          "found {} too large or too small as a product with those before it, expected a number "
+          "that a double can hold",
+          line.substr(0, 60));
+  }
+  return {};
 }
 
 /// "-Y 512 +X 1024". False: it is none.
 bool take_order(std::string_view line, Header& header) {
-  const std::string_view first = take_header_word(line);
-  const auto lines = number_in<std::size_t>(take_header_word(line));
-  const std::string_view second = take_header_word(line);
-  const auto length = number_in<std::size_t>(take_header_word(line));
+  const std::string_view first = take_word_of_line(line);
+  const auto lines = number_in<std::size_t>(take_word_of_line(line));
+  const std::string_view second = take_word_of_line(line);
+  const auto length = number_in<std::size_t>(take_word_of_line(line));
   const auto is_axis = [](std::string_view word, char axis) {
     return word.size() == 2 && (word[0] == '+' || word[0] == '-') && word[1] == axis;
   };
   header.columns = is_axis(first, 'X');
   const std::string_view y = header.columns ? second : first, x = header.columns ? first : second;
-  if (!is_axis(y, 'Y') || !is_axis(x, 'X') || !lines || !length || !take_header_word(line).empty())
+  if (!is_axis(y, 'Y') || !is_axis(x, 'X') || !lines || !length || !take_word_of_line(line).empty())
     return false;
   header.from_bottom = y[0] == '+';
   header.from_right = x[0] == '-';
@@ -103,10 +105,9 @@ Expected<Header> take_header(std::string_view& bytes) {
                           value.substr(0, 40));
       header.xyz = value == "32-bit_rle_xyze";
     }
-    const int factors = name == "EXPOSURE" ? 1 : name == "COLORCORR" ? 3 : 0;
-    if (factors > 0 && !take_factors(value, factors, header.divisor))
-      return base::fail("found {}, expected {} above 0", line->substr(0, 60),
-                        factors == 1 ? "a number" : "three numbers");
+    if (const std::size_t factors = name == "EXPOSURE" ? 1 : name == "COLORCORR" ? 3 : 0; factors > 0)
+      if (const auto taken = take_factors(*line, factors, header); !taken)
+        return tl::unexpected(taken.error());
   }
   const auto order = take_line(bytes);
   if (!order || !take_order(*order, header))
@@ -190,21 +191,25 @@ Colour rgb_of_xyz(const Colour& xyz) {
 Colour colour_of(const Pixel& pixel, const Header& header) {
   const float unit = pixel[3] == 0 ? 0.0f : std::ldexp(1.0f, pixel[3] - (128 + 8));
   Colour colour;
-  for (std::size_t i = 0; i < 3; ++i) colour[i] = unit * static_cast<float>(pixel[i]) / header.divisor[i];
+  for (std::size_t i = 0; i < 3; ++i)
+    colour[i] = static_cast<float>(double{unit} * pixel[i] / header.divisor[i]);
   return header.xyz ? rgb_of_xyz(colour) : colour;
 }
 
-/// Puts scanline `i` where it belongs.
-void place(const std::vector<Pixel>& line, std::size_t i, const Header& header, ImageF& image) {
+/// Puts scanline `i` where it belongs. False: a value is beyond the range of floats.
+bool place(const std::vector<Pixel>& line, std::size_t i, const Header& header, ImageF& image) {
   for (std::size_t j = 0; j < line.size(); ++j) {
     std::size_t x = header.columns ? i : j, y = header.columns ? j : i;
     if (header.from_right) x = static_cast<std::size_t>(image.width) - 1 - x;
     if (header.from_bottom) y = static_cast<std::size_t>(image.height) - 1 - y;
     const Colour colour = colour_of(line[j], header);
+    if (!std::all_of(colour.begin(), colour.end(), [](float value) { return std::isfinite(value); }))
+      return false;
     std::copy_n(colour.begin(), 3,
                 image.pixels.begin() +
                     static_cast<std::ptrdiff_t>(3 * (y * static_cast<std::size_t>(image.width) + x)));
   }
+  return true;
 }
 
 Expected<ImageF> decode(std::string_view bytes) {
@@ -225,7 +230,11 @@ Expected<ImageF> decode(std::string_view bytes) {
   for (std::size_t i = 0; i < lines; ++i) {
     if (!take_scanline(bytes, line))
       return base::fail("scanline {} of {} is damaged or cut off: copy the file again", i + 1, lines);
-    place(line, i, *header, image);
+    if (!place(line, i, *header, image))
+      return base::fail(
+          "scanline {} of {} holds light beyond the range of floats, expected less: check EXPOSURE and "
+          "COLORCORR",
+          i + 1, lines);
   }
   return image;
 }

@@ -1,6 +1,7 @@
 // Radiance pictures: what all their forms mean, and that no damaged one hangs or is read.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 #include "io/image.h"
@@ -79,6 +80,14 @@ TEST_F(Hdr, UndoesExposureAndColourCorrection) {
   EXPECT_EQ(pixels(header + "\n-Y 1 +X 1\n" + bytes_of({8, 16, 8, 136})), (std::vector<float>{1, 1, 2}));
 }
 
+TEST_F(Hdr, MultipliesExposuresInDouble) {
+  const std::string end = "\n-Y 1 +X 1\n" + red(7);
+  const std::string large = "EXPOSURE=1e30\n", small = "EXPOSURE=1e-30\n";
+  EXPECT_EQ(reds(rgbe + large + large + small + small + end), std::vector<float>{7});
+  EXPECT_EQ(reds(rgbe + small + small + large + large + end), std::vector<float>{7});
+  EXPECT_EQ(reds(rgbe + "EXPOSURE=1e-60\n" + large + large + end), std::vector<float>{7});
+}
+
 TEST_F(Hdr, NeutralXyzIsNeutral) {
   const auto grey =
       pixels("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n" + bytes_of({128, 128, 128, 129}));
@@ -139,6 +148,11 @@ TEST_F(Hdr, RefusesWhatIsDamagedInASentence) {
            {rgbe + "\n-Y 1 -Y 10\n" + zeros, "found no size"},
            {rgbe + "EXPOSURE=0\n" + line + zeros, "EXPOSURE=0, expected a number above 0"},
            {rgbe + "EXPOSURE=nan\n" + line + zeros, "expected a number above 0"},
+           {rgbe + "EXPOSURE=1e200\nEXPOSURE=1e200\n" + line + zeros, "too large or too small as a product"},
+           {rgbe + "EXPOSURE=1e-200\nEXPOSURE=1e-200\n" + line + zeros,
+            "too large or too small as a product"},
+           {rgbe + "EXPOSURE=1e-30\nEXPOSURE=1e-30\n\n-Y 1 +X 1\n" + red(1),
+            "scanline 1 of 1 holds light beyond the range of floats"},
            {"#?RADIANCE\nFORMAT=tiff\n" + line + zeros, "FORMAT=tiff"},
            {rgbe + line + bytes_of({2, 2, 0, 10, 0, 0, 0, 0}) + zeros, "scanline 1 of 1 is damaged"},
            {rgbe + line + bytes_of({2, 2, 0, 9}) + zeros, "scanline 1 of 1 is damaged"},
