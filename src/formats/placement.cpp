@@ -1,15 +1,12 @@
 #include "formats/placement.h"
 
-#include <algorithm>
-
+#include "base/lower_case.h"
 #include "math/whole_origin.h"
 
 namespace tenebra::formats {
 
 bool states_coordinates(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::string extension = base::extension_of(file);
   return extension == ".gltf" || extension == ".glb";
 }
 

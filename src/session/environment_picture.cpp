@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/fail.h"
-#include "settings/text_values.h"
+#include "base/lower_case.h"
 #ifdef TENEBRA_OPENEXR
 #include "io/exr/exr_file.h"
 #endif
@@ -13,7 +13,7 @@ namespace tenebra::session {
 namespace {
 
 bool is_exr(const std::filesystem::path& path) {
-  return settings::is_word(path.extension().string(), ".exr");
+  return base::extension_of(path) == ".exr";
 }
 
 Expected<io::ImageF> read_exr(const std::filesystem::path& path) {

@@ -7,13 +7,6 @@
 
 namespace tenebra::settings {
 
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return lower;
-}
-
 bool is_word(std::string_view text, std::string_view word) {
   return lower_case(text) == lower_case(word);
 }

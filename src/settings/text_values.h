@@ -9,11 +9,11 @@
 #include <vector>
 
 #include <tenebra/expected.h>
+#include "base/lower_case.h"
 
 namespace tenebra::settings {
 
-/// ASCII letters in lower case: users may write words in any case.
-std::string lower_case(std::string_view text);
+using base::lower_case;  ///< users may write words in any case
 /// Whether `text` is `word` in any case.
 bool is_word(std::string_view text, std::string_view word);
 /// What stands between the separators; at least one part.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/lower_case.h"
+
 namespace tenebra::stage {
 namespace {
 
@@ -62,9 +64,7 @@ bool is_open(const Part& part, const FrameGeometry& frame) {
 }
 
 bool says_sky(const std::string& name) {
-  std::string lower;
-  for (const char c : name) lower += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return lower.find("sky") != std::string::npos;
+  return base::lower_case(name).find("sky") != std::string::npos;
 }
 
 /// Whether a mesh is painted as a sky: by its name or its material's, or because it shines or is unlit. AFF
