@@ -4,6 +4,8 @@
 #include <fmt/core.h>
 
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <utility>
 
 namespace tenebra::formats {
@@ -22,6 +24,15 @@ struct UnreadableFile : ImportFailure {
 template <class... Args>
 [[noreturn]] void refuse(fmt::format_string<Args...> format, Args&&... args) {
   throw ImportFailure(fmt::format(format, std::forward<Args>(args)...));
+}
+
+/// `text` of a file for a sentence: names may be long (data URIs) or hold control characters.
+inline std::string shown(std::string_view text) {
+  constexpr std::size_t longest = 80;
+  std::string word(text.substr(0, longest));
+  for (char& c : word)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
+  return text.size() > longest ? word + "..." : word;
 }
 
 }  // namespace tenebra::formats

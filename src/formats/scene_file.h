@@ -16,6 +16,11 @@ inline constexpr std::uintmax_t max_scene_file_bytes = std::uintmax_t{1} << 31;
 std::string read_scene_file(const std::filesystem::path& path,
                             std::vector<std::filesystem::path>* files_read);
 
+/// What stands after the last slash of either kind: names in a file may be paths of another machine.
+inline std::string_view last_part(std::string_view name) {
+  return name.substr(name.find_last_of("/\\") + 1);
+}
+
 /// `uri` with its %XX undone. Throws ImportFailure naming `place`.
 std::string undo_percent(std::string_view uri, std::string_view place);
 

@@ -40,6 +40,19 @@ TEST(DerivedPictures, AlphaIsBrightnessOrAlpha) {
   EXPECT_FALSE(cuts_out(with_alpha(colors, shares)));
 }
 
+// A file of many materials would have its pictures looked at as many times.
+TEST(DerivedPictures, EachPictureIsJudgedOnce) {
+  Scene scene;
+  SceneImages images(scene, ".", {});
+  const int normals = images.add(testing::png_of({1, 1, 3, {128, 128, 255}}), "normals");
+  EXPECT_EQ(images.normals_of_bumps(normals, 1), normals);
+  const int shares = images.add(testing::png_of({1, 1, 4, {9, 9, 9, 77}}), "shares");
+  EXPECT_FALSE(images.cuts_out(shares));
+  for (TextureImage& image : scene.images) image.rgba = {9, 9, 9, 255};
+  EXPECT_EQ(images.normals_of_bumps(normals, 2), normals);
+  EXPECT_FALSE(images.cuts_out(shares));
+}
+
 TEST(DerivedPictures, AreMadeOnceAndHaveALimit) {
   Scene scene;
   SceneImages images(scene, ".", {});

@@ -85,6 +85,8 @@ TEST_F(ObjLooks, OptionsOfAPictureMoveIt) {
   const glm::vec2 moved = map.transform * glm::vec3(1, 0, 1);
   EXPECT_FLOAT_EQ(moved.x, 2.5f);
   EXPECT_FLOAT_EQ(moved.y, 1 - 3.25f);
+  const Scene beyond = read("newmtl m\nmap_Kd -s 1e300 2 1 t.png\n", textured_square);
+  EXPECT_EQ(beyond.materials.at(0).base_color_map.transform[0].x, 1);
 }
 
 TEST_F(ObjLooks, NamesOfOtherMachinesAreFoundByTheirLastPart) {
@@ -100,6 +102,33 @@ TEST_F(ObjLooks, WhatIsMissingOrNotUsedIsNamed) {
   EXPECT_EQ(scene.materials[0].base_color, glm::vec3(1, 0, 0));
   ASSERT_EQ(scene.unused.size(), 1u);
   EXPECT_EQ(scene.unused[0].name, "map_Pr");
+}
+
+TEST_F(ObjLooks, OfManyKindsThatAreNotUsedTheNamedOnesAreCounted) {
+  std::string maps;
+  for (char c = 'a'; c <= 'z'; ++c) maps += std::string("map_x") + c + " b.png\n";
+  const Scene scene = read("newmtl m\n" + maps + "map_xa b.png\n", textured_square);
+  ASSERT_EQ(scene.unused.size(), 20u);
+  EXPECT_EQ(scene.unused[0].name, "map_xa");
+  EXPECT_EQ(scene.unused[0].count, 2u);
+}
+
+TEST_F(ObjLooks, AlphaOfAPictureStaysWhereTr1MeansOpaque) {
+  write_text(folder_ / "shares.png", png_of({2, 2, 1, {255, 0, 0, 255}}));
+  const Scene scene = read("newmtl m\nTr 1\nmap_d shares.png\n", textured_square);
+  EXPECT_EQ(scene.materials.at(0).alpha, 1.0f);
+  EXPECT_EQ(scene.materials[0].alpha_mode, AlphaMode::mask);
+  EXPECT_EQ(scene.warnings.size(), 1u);
+}
+
+TEST_F(ObjLooks, AlphaThatLiesOtherwiseThanTheColoursIsNamed) {
+  write_text(folder_ / "t.png", png_of(small_picture(2, 2)));
+  const std::string maps = "map_Kd t.png\nmap_d -s 2 2 1 t.png\n";
+  const Scene scene = read("newmtl m\n" + maps + "newmtl n\n" + maps, textured_square);
+  EXPECT_EQ(scene.materials.at(0).alpha_mode, AlphaMode::opaque);
+  EXPECT_EQ(scene.warnings,
+            std::vector<std::string>{"material 'm' and 1 more: found map_d with other options than map_Kd, "
+                                     "expected the same; it is not used."});
 }
 
 TEST_F(ObjLooks, MapsOfNormalsAlphaAndGlossAreRead) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
 #include <filesystem>
 
 #include "formats/import_scene.h"
@@ -61,12 +62,22 @@ TEST_F(ObjText, LinesEndInEveryWayAndAreContinued) {
   }
 }
 
+TEST_F(ObjText, AMillionEmptyLinesTakeNoTime) {
+  const std::clock_t before = std::clock();
+  EXPECT_EQ(formats::parse_obj(std::string(1'000'000, '\r') + square).positions.size(), 4u);
+  EXPECT_LT(static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC, 2);
+}
+
 TEST_F(ObjText, NumbersAreReadInDoubleAndInEverySpelling) {
   const auto file = formats::parse_obj("v 5334567.381 +1 1e-400\nv -1.#IND 1.#INF nan\nv 1. .5 -2E+2 # w\n");
   EXPECT_EQ(file.positions[0], glm::dvec3(5334567.381, 1, 0));
   EXPECT_TRUE(std::isnan(file.positions[1].x) && !std::isfinite(file.positions[1].y) &&
               std::isnan(file.positions[1].z));
   EXPECT_EQ(file.positions[2], glm::dvec3(1, 0.5, -200));
+  const std::string zeros(400, '0');
+  const auto extreme = formats::parse_obj("v 0." + zeros + "1 -1" + zeros + " 1e400\nv -1E-400 0 0\n");
+  EXPECT_EQ(extreme.positions[0], glm::dvec3(0, -INFINITY, INFINITY));
+  EXPECT_EQ(extreme.positions[1], glm::dvec3(0));
 }
 
 TEST_F(ObjText, MapCoordinatesLoseAWholeOffsetBeforeTheyBecomeFloats) {
@@ -117,6 +128,8 @@ TEST_F(ObjText, ColoursOfSomeVerticesLeaveTheOthersWhite) {
   ASSERT_EQ(scene.meshes.size(), 2u);
   EXPECT_EQ(scene.meshes[0].colors, (std::vector<glm::vec4>{{1, 0, 0, 1}, {1, 1, 1, 1}, {0, 1, 0, 1}}));
   EXPECT_TRUE(read("v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\nf 1 2 3\n").meshes.at(0).colors.empty());  // weights
+  for (const std::string number : {" nan nan nan", " 1 1 inf", " 1e300 0 0"})
+    EXPECT_TRUE(formats::parse_obj("v 0 0 0" + number + "\n").colors.empty()) << number;
 }
 
 TEST_F(ObjText, NamesMayHoldBlanksAndNumberSigns) {
@@ -136,6 +149,49 @@ TEST_F(ObjText, LibrariesAreFoundAsExportersNameThem) {
     EXPECT_EQ(first(read(square + ("mtllib " + name) + "\nusemtl red\nf 1 2 3\n")).base_color,
               glm::vec3(1, 0, 0));
   }
+}
+
+TEST_F(ObjText, ALibraryThatIsNotThereChangesNoOtherRemark) {
+  const std::string faces = "usemtl red\nf 1 2 3\n";
+  write_text(folder_ / "a.mtl", "newmtl red\nKd 1 0 0\n");
+  EXPECT_EQ(read(square + ("vp 1\nmtllib # none\n" + faces)).warnings.at(0),
+            "Line 5: found 'vp', which is not read.");
+  const Scene named = read(square + ("mtllib gone.mtl lost.mtl\n" + faces));
+  EXPECT_EQ(named.warnings, std::vector<std::string>{"mtllib 'gone.mtl lost.mtl': found no such file beside "
+                                                     "the scene; a.mtl is read in its place."});
+}
+
+TEST_F(ObjText, TheLibraryOfTheSceneSNameLeadsOutOfItsFolderNeither) {
+  const testing::TemporaryFolder other;
+  write_text(other / "a.mtl", "newmtl red\nKd 1 0 0\n");
+  std::filesystem::create_symlink(other / "a.mtl", folder_ / "a.mtl");
+  const Scene scene = read(square + std::string("mtllib gone.mtl\nusemtl red\nf 1 2 3\n"));
+  EXPECT_EQ(first(scene).base_color, Material().base_color);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("its materials are grey"), std::string::npos) << scene.warnings[0];
+}
+
+TEST_F(ObjText, MaterialsAreLimited) {
+  std::string text = "newmtl red\nKd 1 0 0\n";
+  for (int i = 0; i < 100'000; ++i) text += "newmtl\n";
+  write_text(folder_ / "a.mtl", text + "Kd 0 1 0\n");
+  write_text(folder_ / "b.mtl", "newmtl b\n");
+  const Scene scene = read(square + std::string("mtllib a.mtl b.mtl\nusemtl red\nf 1 2 3\n"));
+  EXPECT_EQ(scene.materials.size(), 100'000u);
+  EXPECT_EQ(first(scene).base_color, glm::vec3(1, 0, 0));
+  EXPECT_EQ(scene.materials.back().base_color, scene.materials[1].base_color) << "no more than its own lines";
+  EXPECT_EQ(scene.warnings,
+            std::vector<std::string>{"mtllib: found more than 100000 materials: the others are grey."});
+}
+
+TEST_F(ObjText, ManyUnknownWordsHideNoOtherRemark) {
+  std::string words;
+  for (char c = 'a'; c <= 'z'; ++c) words += std::string("x") + c + "\n";
+  const auto file = formats::parse_obj(square + words + "xa\nf 1 2\n");
+  ASSERT_EQ(file.warnings.size(), 22u);
+  EXPECT_EQ(file.warnings[0], "Line 5 and 1 more: found 'xa', which is not read.");
+  EXPECT_EQ(file.warnings[20], "Line 25 and 5 more: found other words that are not read.");
+  EXPECT_EQ(file.warnings[21], "Line 32: found a face of fewer than three corners, which is left out.");
 }
 
 TEST_F(ObjText, WhatIsNotReadIsSaidOnceForEachKind) {
@@ -171,6 +227,14 @@ TEST_F(ObjText, MaterialsTolerateCommasAndOddNumbers) {
   EXPECT_EQ(first(scene).alpha, 0.5f);
   ASSERT_EQ(scene.warnings.size(), 4u);
   EXPECT_NE(scene.warnings[1].find("a.mtl, line 3"), std::string::npos) << scene.warnings[1];
+}
+
+TEST_F(ObjText, NumbersOfMaterialsBeyondFloatsAreNone) {
+  write_text(folder_ / "a.mtl", "newmtl a\nKd 1e300 0 0\nKs .5 1e300 .5\nNs 1e300\n");
+  const Scene scene = read(std::string(square) + "mtllib a.mtl\nusemtl a\nf 1 2 3\n");
+  EXPECT_EQ(first(scene).base_color, glm::vec3(0.6f));
+  EXPECT_EQ(first(scene).specular, glm::vec3(0.5f));
+  EXPECT_EQ(first(scene).phong_exponent, 1.0f);
 }
 
 TEST_F(ObjText, Tr1InAllMaterialsIsOpaqueAndNs0IsMatte) {

@@ -14,18 +14,12 @@ namespace {
 
 constexpr std::uintmax_t most_picture_bytes = std::uintmax_t{1} << 28;
 
-/// What stands after the last slash of either kind: names in OBJ files may be paths of another machine.
-std::string last_part(const std::string& name) {
-  const std::size_t slash = name.find_last_of("/\\");
-  return slash == std::string::npos ? name : name.substr(slash + 1);
-}
-
-/// For a warning: a name may be long (data URIs) or hold control characters.
-std::string shown(const std::string& name) {
-  std::string text = name.substr(0, 80);
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
-  return text.size() < name.size() ? text + "..." : text;
+/// What `judge` says of the picture `image` of `scene`, asked once.
+bool judge_once(const Scene& scene, int image, bool (*judge)(const TextureImage&),
+                std::map<int, bool>& known) {
+  const auto [entry, is_new] = known.try_emplace(image, false);
+  if (is_new) entry->second = judge(scene.images[static_cast<std::size_t>(image)]);
+  return entry->second;
 }
 
 }  // namespace
@@ -57,7 +51,7 @@ fs::path SceneImages::search(const std::string& name, const std::string& place, 
       if (refusal.empty()) refusal = failure.what();
     }
   }
-  const std::string last = last_part(name);
+  const std::string last(last_part(name));
   if (!percent_encoded && last != name && !last.empty()) return search(last, place, false);
   if (!refusal.empty()) throw ImportFailure(refusal);
   return {};
@@ -128,8 +122,8 @@ int SceneImages::normals_of_bumps(int bumps, float scale) {
   if (bumps < 0) return -1;
   const auto [entry, is_new] = normals_of_.try_emplace({bumps, scale}, bumps);
   if (!is_new) return entry->second;
+  if (!judge_once(scene_, bumps, holds_heights, holds_heights_)) return bumps;
   const TextureImage& image = scene_.images[static_cast<std::size_t>(bumps)];
-  if (!holds_heights(image)) return bumps;
   const double height = 0.01 * std::max(image.width, image.height) * double{scale};
   return entry->second =
              derive(image.name, image.width, image.height, [&] { return normals_of_heights(image, height); });
@@ -145,6 +139,10 @@ int SceneImages::with_alpha(int colors, int shares) {
   return entry->second =
              derive(share.name, std::max(color.width, share.width), std::max(color.height, share.height),
                     [&] { return formats::with_alpha(color, share); });
+}
+
+bool SceneImages::cuts_out(int image) {
+  return judge_once(scene_, image, formats::cuts_out, cuts_out_);
 }
 
 }  // namespace tenebra::formats

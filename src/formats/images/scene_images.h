@@ -35,6 +35,8 @@ public:
   /// The colours of one picture (-1: white) with the other as its alpha, as with_alpha() says; -1 where the
   /// second is.
   int with_alpha(int colors, int shares);
+  /// Whether the alpha of picture `image` says yes or no, as cuts_out() says.
+  bool cuts_out(int image);
 
 private:
   std::filesystem::path search(const std::string& name, const std::string& place, bool percent_encoded);
@@ -51,6 +53,7 @@ private:
   std::map<std::filesystem::path, int> index_of_file_;  ///< by place on disk
   std::map<std::pair<int, float>, int> normals_of_;     ///< by bump map and scale
   std::map<std::pair<int, int>, int> with_alpha_;       ///< by both pictures
+  std::map<int, bool> holds_heights_, cuts_out_;        ///< by picture: what derived.h says of it
   std::uint64_t pixels_left_ = most_scene_pixels;
 };
 

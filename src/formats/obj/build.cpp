@@ -98,7 +98,7 @@ private:
       refuse(
           "face of '{}': found a polygon of {} corners, expected simpler ones: cut it into triangles at "
           "the export",
-          shown_word(mesh.name), corners.size());
+          shown(mesh.name), corners.size());
   }
 
   std::uint32_t vertex(Corner corner, Mesh& mesh) {

@@ -20,8 +20,7 @@ namespace fs = std::filesystem;
 /// `name` beside the scene; of a name with folders that are not there, or are of another machine, the last
 /// part. Nothing where there is no such file.
 std::optional<fs::path> find_library(const fs::path& folder, const fs::path& root, std::string_view name) {
-  const std::string_view last = name.substr(name.find_last_of("/\\") + 1);
-  for (const std::string_view part : {name, last}) {
+  for (const std::string_view part : {name, last_part(name)}) {
     try {
       const fs::path file = confine(folder, part, "mtllib", false, root);
       std::error_code error;
@@ -33,31 +32,34 @@ std::optional<fs::path> find_library(const fs::path& folder, const fs::path& roo
   return std::nullopt;
 }
 
-/// The files that `mtllib WRITTEN` names: the whole rest of the line if there is such a file, else each word.
+/// The files that `mtllib WRITTEN` names: the whole rest of the line if there is such a file, else each word;
+/// of these there is none, the file of the scene's own name.
 std::vector<fs::path> library_files(const fs::path& scene, const fs::path& root, std::string_view written,
-                                    Scene& read) {
+                                    std::vector<std::string>& warnings) {
   const fs::path folder = scene.parent_path();
   for (const std::string_view whole : {written, without_comment(written)})
     if (const auto file = find_library(folder, root, whole)) return {*file};
   std::vector<fs::path> files;
+  std::vector<std::string> missing;
   constexpr int most_words = 64;
+  std::string_view rest = written;
   for (int i = 0; i < most_words; ++i) {
-    const std::string_view word = take_word(written);
+    const std::string_view word = take_word(rest);
     if (word.empty()) break;
     if (const auto file = find_library(folder, root, word))
       files.push_back(*file);
     else
-      read.warnings.push_back(fmt::format(
-          "mtllib '{}': found no such file beside the scene; its materials are grey.", shown_word(word)));
+      missing.push_back(fmt::format(
+          "mtllib '{}': found no such file beside the scene; its materials are grey.", shown(word)));
   }
-  const fs::path namesake = fs::path(scene).replace_extension(".mtl");
-  std::error_code error;
-  if (files.empty() && !read.warnings.empty() && fs::is_regular_file(namesake, error)) {
-    read.warnings.back() =
-        fmt::format("mtllib '{}': found no such file beside the scene; {} is read in its place.",
-                    shown_word(without_comment(written)), namesake.filename().string());
-    files.push_back(namesake);
-  }
+  const std::string namesake = fs::path(scene).replace_extension(".mtl").filename().string();
+  if (files.empty() && !missing.empty())
+    if (const auto file = find_library(folder, root, namesake)) {
+      files.push_back(*file);
+      missing = {fmt::format("mtllib '{}': found no such file beside the scene; {} is read in its place.",
+                             shown(without_comment(written)), shown(namesake))};
+    }
+  warnings.insert(warnings.end(), missing.begin(), missing.end());
   return files;
 }
 
@@ -66,13 +68,16 @@ std::vector<MtlMaterial> read_libraries(const fs::path& path, const ObjFile& fil
   std::vector<MtlMaterial> materials;
   std::vector<fs::path> read;
   for (const std::string& written : file.libraries)
-    for (const fs::path& library : library_files(path, options.root, written, scene)) {
+    for (const fs::path& library : library_files(path, options.root, written, scene.warnings)) {
       if (std::find(read.begin(), read.end(), library) != read.end()) continue;
       read.push_back(library);
       const std::string name = library.filename().string();
       try {
-        auto more = parse_mtl(read_scene_file(library, options.files_read), name, scene.warnings);
-        std::move(more.begin(), more.end(), std::back_inserter(materials));
+        if (parse_mtl(read_scene_file(library, options.files_read), name, materials, scene.warnings))
+          continue;
+        scene.warnings.push_back(
+            fmt::format("mtllib: found more than {} materials: the others are grey.", most_materials));
+        return materials;
       } catch (const UnreadableFile& failure) {
         throw UnreadableFile(fmt::format("mtllib '{}': {}", name, failure.what()));
       } catch (const ImportFailure& failure) {
@@ -90,7 +95,7 @@ std::vector<std::uint32_t> materials_of_names(const ObjFile& file, const std::ve
   std::size_t unknown = 0;
   std::string first;
   for (const int index : find_materials(materials, file.material_names)) {
-    if (index < 0 && unknown++ == 0) first = shown_word(without_comment(file.material_names[found.size()]));
+    if (index < 0 && unknown++ == 0) first = shown(without_comment(file.material_names[found.size()]));
     found.push_back(index < 0 ? grey : static_cast<std::uint32_t>(index));
   }
   if (unknown > 0 && !materials.empty())

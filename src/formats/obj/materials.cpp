@@ -1,10 +1,9 @@
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 #include <unordered_map>
 
-#include "formats/images/derived.h"
+#include "formats/import_failure.h"
 #include "formats/obj/mtl.h"
 #include "formats/obj/text_lines.h"
 
@@ -36,22 +35,31 @@ float alpha_of(const MtlMaterial& source) {
   return std::clamp(alpha, 0.0f, 1.0f);
 }
 
+/// Materials with a fault of one kind.
+struct Faulty {
+  std::string first;  ///< in words
+  std::size_t count = 0;
+};
+
 /// map_d: alpha from a picture of its own, which is used where it lies on the surface as map_Kd does.
 void read_alpha_map(const MtlMaterial& source, const std::string& place, SceneImages& images,
-                    const Scene& scene, Material& material) {
+                    Material& material, Faulty& placed_otherwise) {
   const TextureMap shares = map_of(source.map({"map_d"}), place, images);
   const TextureMap& colors = material.base_color_map;
   const bool placed_alike =
       !colors || (colors.transform == shares.transform && colors.wrap_u == shares.wrap_u);
-  if (!shares || !placed_alike) return;
+  if (!shares) return;
+  if (!placed_alike) {
+    if (placed_otherwise.count++ == 0) placed_otherwise.first = place;
+    return;
+  }
   const int both =
       images.with_alpha(material.base_color_map ? material.base_color_map.image : -1, shares.image);
   if (both < 0) return;
   if (!material.base_color_map) material.base_color_map = shares;
   material.base_color_map.image = both;
-  const bool cut = cuts_out(scene.images[static_cast<std::size_t>(both)]);
   if (material.alpha_mode == AlphaMode::opaque)
-    material.alpha_mode = cut ? AlphaMode::mask : AlphaMode::blend;
+    material.alpha_mode = images.cuts_out(both) ? AlphaMode::mask : AlphaMode::blend;
 }
 
 /// norm holds normals; bump and map_Bump heights, or in many files normals too.
@@ -64,9 +72,10 @@ void read_normal_map(const MtlMaterial& source, const std::string& place, SceneI
   material.normal_map.image = images.normals_of_bumps(material.normal_map.image, bumps->bump);
 }
 
-Material read_material(const MtlMaterial& source, SceneImages& images, const Scene& scene) {
+Material read_material(const MtlMaterial& source, float alpha, SceneImages& images,
+                       Faulty& placed_otherwise) {
   constexpr int diffuse_only = 1;  // one of the MTL format's illumination models
-  const std::string place = fmt::format("material '{}'", source.name);
+  const std::string place = fmt::format("material '{}'", shown(source.name));
   Material material;
   material.name = source.name;
   material.base_color = source.diffuse;
@@ -85,13 +94,13 @@ Material read_material(const MtlMaterial& source, SceneImages& images, const Sce
     material.roughness = std::clamp(source.roughness.value_or(1), 0.0f, 1.0f);
     material.metallic = std::clamp(source.metallic.value_or(0), 0.0f, 1.0f);
   }
-  material.alpha = alpha_of(source);
+  material.alpha = alpha;
   if (material.alpha < 1) material.alpha_mode = AlphaMode::blend;
   if (material.specular != glm::vec3(0)) {
     material.specular_map = map_of(source.map({"map_ks"}), place, images);
     material.exponent_map = map_of(source.map({"map_ns"}), place, images);
   }
-  read_alpha_map(source, place, images, scene, material);
+  read_alpha_map(source, place, images, material, placed_otherwise);
   read_normal_map(source, place, images, material);
   return material;
 }
@@ -101,22 +110,33 @@ void name_unused(const std::vector<MtlMaterial>& sources, Scene& scene) {
   std::map<std::string, std::size_t> counts;
   static const std::set<std::string_view> used{"map_kd", "map_ke",   "map_ks", "map_ns",
                                                "map_d",  "map_bump", "bump",   "norm"};
+  constexpr std::size_t most_kinds = 20;  // a file of another kind has thousands
   for (const MtlMaterial& source : sources)
-    for (const MtlMap& map : source.maps)
-      if (!used.contains(map.statement) && counts.size() < 20) ++counts[shown_word(map.written)];
+    for (const MtlMap& map : source.maps) {
+      if (used.contains(map.statement)) continue;
+      const std::string name = shown(map.written);
+      if (counts.size() < most_kinds || counts.contains(name)) ++counts[name];
+    }
   for (const auto& [name, count] : counts) scene.unused.push_back({name, count});
 }
 
 }  // namespace
 
 void add_materials(const std::vector<MtlMaterial>& sources, SceneImages& images, Scene& scene) {
-  for (const MtlMaterial& source : sources) scene.materials.push_back(read_material(source, images, scene));
-  if (transparency_means_opacity(sources)) {
-    for (Material& material : scene.materials) material.alpha = 1, material.alpha_mode = AlphaMode::opaque;
+  const bool all_opaque = transparency_means_opacity(sources);
+  Faulty placed_otherwise;
+  for (const MtlMaterial& source : sources)
+    scene.materials.push_back(
+        read_material(source, all_opaque ? 1 : alpha_of(source), images, placed_otherwise));
+  if (placed_otherwise.count > 0)
+    scene.warnings.push_back(fmt::format(
+        "{}{}: found map_d with other options than map_Kd, expected the same; it is not used.",
+        placed_otherwise.first,
+        placed_otherwise.count > 1 ? fmt::format(" and {} more", placed_otherwise.count - 1) : ""));
+  if (all_opaque)
     scene.warnings.push_back(
         "Every material states Tr 1, with which nothing would be seen: taken as opaque, as MeshLab writes "
         "it.");
-  }
   name_unused(sources, scene);
 }
 

@@ -1,6 +1,7 @@
 // What MTL files say, and what our materials make of it.
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,9 +34,13 @@ struct MtlMaterial {
   const MtlMap* map(std::initializer_list<std::string_view> statements) const;
 };
 
-/// Reads an MTL text, whose `file` name the sentences in `warnings` begin with.
-std::vector<MtlMaterial> parse_mtl(std::string_view text, const std::string& file,
-                                   std::vector<std::string>& warnings);
+/// Of all MTL files of a scene together: each costs about a kilobyte, and eight bytes of a file.
+inline constexpr std::size_t most_materials = 100'000;
+
+/// Appends the materials of an MTL text, whose `file` name the sentences in `warnings` begin with. False:
+/// there are more than most_materials; the rest of the text is not read.
+bool parse_mtl(std::string_view text, const std::string& file, std::vector<MtlMaterial>& materials,
+               std::vector<std::string>& warnings);
 
 /// Appends `sources` to the scene's materials, in order, and names what is not used.
 void add_materials(const std::vector<MtlMaterial>& sources, SceneImages& images, Scene& scene);

@@ -20,12 +20,15 @@ constexpr std::size_t most_libraries = 64;
 /// Remarks that many lines may give: each said once, with the first line and the number of others.
 class Remarks {
 public:
-  void add(std::string remark, std::size_t line) {
-    constexpr std::size_t most_kinds = 20;  // a file of another kind has thousands
-    auto found = lines_.find(remark);
-    if (found == lines_.end() && lines_.size() >= most_kinds) remark = "found other words that are not read";
-    if (found == lines_.end()) found = lines_.try_emplace(std::move(remark), Lines{line, 0}).first;
-    ++found->second.count;
+  void add(const std::string& remark, std::size_t line) {
+    ++lines_.try_emplace(remark, Lines{line, 0}).first->second.count;
+  }
+  /// A word that the format does not have: a file of another kind has thousands.
+  void add_unknown(std::string_view word, std::size_t line) {
+    constexpr std::size_t most_words = 20;
+    const std::string remark = fmt::format("found '{}', which is not read", shown(word));
+    if (lines_.contains(remark) || unknown_words_++ < most_words) return add(remark, line);
+    add("found other words that are not read", line);
   }
   std::vector<std::string> sentences() const {
     std::vector<std::pair<std::size_t, std::string>> found;
@@ -44,6 +47,7 @@ private:
     std::size_t first, count;
   };
   std::map<std::string, Lines> lines_;
+  std::size_t unknown_words_ = 0;
 };
 
 /// The largest index of a kind that a face names, from 0, and the line of it.
@@ -75,11 +79,11 @@ private:
     if (word == "o" || word == "g") return begin_shape();
     if (word == "mtllib") return add_library();
     if (word == "p" || word == "l") return void(++skipped_);
-    if (word != "s") remarks_.add(fmt::format("found '{}', which is not read", shown_word(word)), at_.line);
+    if (word != "s") remarks_.add_unknown(word, at_.line);
   }
 
   [[noreturn]] void refuse_word(std::string_view rest, std::string_view expected) {
-    refuse("line {}: found '{}', expected {}", at_.line, shown_word(take_word(rest)), expected);
+    refuse("line {}: found '{}', expected {}", at_.line, shown(take_word(rest)), expected);
   }
 
   /// A number that the surface depends on; false: none is left on the line.
@@ -104,11 +108,15 @@ private:
       if (!take(values[count])) refuse("line {}: found {} numbers, expected x, y and z", at_.line, count);
     // What follows is a weight or a colour, and more of these or something else: no part of the place.
     while (count < 7 && take_number(at_.rest, values[count]) == NumberFault::none) ++count;
-    if (count >= 6) {
-      file_.colors.resize(file_.positions.size(), ObjFile::not_colored);
-      file_.colors.push_back(glm::max(glm::vec3(values[3], values[4], values[5]), 0.0f));
-    }
+    if (count >= 6) add_color(glm::vec3(values[3], values[4], values[5]));
     file_.positions.emplace_back(values[0], values[1], values[2]);
+  }
+
+  /// Of the next position. What is not finite is no colour.
+  void add_color(const glm::vec3& color) {
+    if (!std::isfinite(color.x) || !std::isfinite(color.y) || !std::isfinite(color.z)) return;
+    file_.colors.resize(file_.positions.size(), ObjFile::not_colored);
+    file_.colors.push_back(glm::max(color, 0.0f));
   }
 
   /// A number that the surface does not depend on: 0 where it is none.
@@ -158,7 +166,7 @@ private:
     const std::int64_t normal = next(file_.normals.size(), ignored);
     if (fault || position < 0 || !ends_word(rest))
       refuse("line {}: found '{}' in a face, expected vertices such as 3, 3/1 or 3/1/2, of those before it",
-             at_.line, shown_word(take_word(at_.rest)));
+             at_.line, shown(take_word(at_.rest)));
     at_.rest = rest;
     if (ignored) remarks_.add("found coordinates or normals of a face that are no numbers of any", at_.line);
     largest_position_.add(position, at_.line);

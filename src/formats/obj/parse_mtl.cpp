@@ -1,35 +1,34 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/lower_case.h"
+#include "formats/import_failure.h"
 #include "formats/obj/mtl.h"
 #include "formats/obj/text_lines.h"
 
 namespace tenebra::formats {
 namespace {
 
-std::string lower(std::string_view word) {
-  std::string text(word);
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
 class MtlParser {
 public:
-  MtlParser(const std::string& file, std::vector<std::string>& warnings) : file_(file), warnings_(warnings) {}
+  MtlParser(const std::string& file, std::vector<MtlMaterial>& materials, std::vector<std::string>& warnings)
+      : file_(file), materials_(materials), warnings_(warnings) {}
 
-  std::vector<MtlMaterial> parse(std::string_view text) {
+  /// False: there are too many materials.
+  bool parse(std::string_view text) {
     for (TextLines lines(text); lines.next(at_);) {
+      const std::string word = base::lower_case(at_.word);
+      if (word == "newmtl" && materials_.size() == most_materials) return false;
       written_ = at_.rest;
-      read_statement(lower(at_.word));
+      read_statement(word);
     }
-    return std::move(materials_);
+    return true;
   }
 
 private:
   void read_statement(const std::string& word) {
     if (word == "newmtl") return begin();
-    if (materials_.empty()) return warn(", expected newmtl first");
+    if (materials_.size() == before_) return warn(", expected newmtl first");
     MtlMaterial& material = materials_.back();
     if (word == "kd") return read_color(material.diffuse);
     if (word == "ks") return read_color(material.specular);
@@ -60,11 +59,11 @@ private:
   void warn(std::string_view what) {
     constexpr int most = 20;  // a file of another kind has thousands
     if (++said_ <= most)
-      warnings_.push_back(fmt::format("{}, line {}: found '{} {}'{}.", file_, at_.line, shown_word(at_.word),
-                                      shown_word(written_), what));
+      warnings_.push_back(fmt::format("{}, line {}: found '{} {}'{}.", file_, at_.line, shown(at_.word),
+                                      shown(written_), what));
   }
 
-  /// A number of the statement; `otherwise` where there is none.
+  /// A number of the statement; `otherwise` where there is none, or none that a float can hold.
   float number(float otherwise) {
     double value = otherwise;
     switch (take_number(at_.rest, value)) {
@@ -81,7 +80,8 @@ private:
         at_.rest = {};
         return otherwise;
     }
-    return std::isfinite(value) ? static_cast<float>(value) : otherwise;
+    const auto number = static_cast<float>(value);
+    return std::isfinite(number) ? number : otherwise;
   }
 
   void read_number(std::optional<float>& member) {
@@ -138,14 +138,16 @@ private:
     for (int i = 0; i < 3; ++i) {
       double value = 0;
       if (take_number(at_.rest, value) != NumberFault::none) break;
-      if (i < 2 && std::isfinite(value)) vector[i] = static_cast<float>(value);
+      const auto number = static_cast<float>(value);
+      if (i < 2 && std::isfinite(number)) vector[i] = number;
     }
     return true;
   }
 
   const std::string& file_;
+  std::vector<MtlMaterial>& materials_;
   std::vector<std::string>& warnings_;
-  std::vector<MtlMaterial> materials_;
+  const std::size_t before_ = materials_.size();  ///< materials of other files
   Statement at_;
   std::string_view written_;  ///< what the statement says, all of it
   int said_ = 0;
@@ -154,9 +156,9 @@ private:
 
 }  // namespace
 
-std::vector<MtlMaterial> parse_mtl(std::string_view text, const std::string& file,
-                                   std::vector<std::string>& warnings) {
-  return MtlParser(file, warnings).parse(text);
+bool parse_mtl(std::string_view text, const std::string& file, std::vector<MtlMaterial>& materials,
+               std::vector<std::string>& warnings) {
+  return MtlParser(file, materials, warnings).parse(text);
 }
 
 const MtlMap* MtlMaterial::map(std::initializer_list<std::string_view> statements) const {

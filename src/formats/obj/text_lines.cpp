@@ -2,17 +2,26 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
-#include <cstdlib>
-#include <cstring>
+#include <cstdint>
 #include <limits>
 
 namespace tenebra::formats {
 namespace {
 
-/// A number out of the range of doubles: infinity, or zero where it is too small.
-double out_of_range(const std::string& digits) {
-  return std::strtod(digits.c_str(), nullptr);
+/// A number out of the range of doubles: infinity, or zero where it is too small. Which of them says the
+/// decimal place of its first digit that is not 0.
+double out_of_range(std::string_view number) {
+  const std::string_view digits = number.substr(0, number.find_first_of("eE"));
+  std::string_view exponent = number.substr(std::min(digits.size() + 1, number.size()));
+  if (exponent.starts_with('+')) exponent.remove_prefix(1);
+  std::int64_t place = 0;
+  const auto [end, error] = std::from_chars(exponent.data(), exponent.data() + exponent.size(), place);
+  constexpr std::int64_t beyond = std::int64_t{1} << 62;  // any number of digits
+  if (error == std::errc::result_out_of_range) place = exponent.starts_with('-') ? -beyond : beyond;
+  const std::size_t point = std::min(digits.find('.'), digits.size());
+  place += static_cast<std::int64_t>(point) - static_cast<std::int64_t>(digits.find_first_of("123456789"));
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return place < 0 ? 0 : number.starts_with('-') ? -infinity : infinity;
 }
 
 /// -1.#IND and its like: a # that belongs to a number.
@@ -28,12 +37,14 @@ TextLines::TextLines(std::string_view text) : text_(text) {
 }
 
 std::string_view TextLines::take_line() {
-  const std::string_view line = text_.substr(0, text_.find('\n'));
-  const std::size_t end = std::min(line.find('\r'), line.size());
+  const auto ends_line = [](char c) { return c == '\n' || c == '\r'; };
+  const auto end =
+      static_cast<std::size_t>(std::find_if(text_.begin(), text_.end(), ends_line) - text_.begin());
+  const std::string_view line = text_.substr(0, end);
   const bool both = text_.substr(end).starts_with("\r\n");
   text_.remove_prefix(std::min(text_.size(), end + (both ? 2 : 1)));
   ++line_;
-  return line.substr(0, end);
+  return line;
 }
 
 bool TextLines::next(Statement& statement) {
@@ -83,7 +94,7 @@ NumberFault take_number(std::string_view& rest, double& value) {
   const char *const at = rest.data() + (rest[0] == '+' ? 1 : 0), *const end = rest.data() + rest.size();
   const auto [stop, error] = std::from_chars(at, end, value);
   if (error == std::errc::invalid_argument) return NumberFault::not_a_number;
-  if (error == std::errc::result_out_of_range) value = out_of_range(std::string(at, stop));
+  if (error == std::errc::result_out_of_range) value = out_of_range({at, stop});
   const std::string_view behind(stop, static_cast<std::size_t>(end - stop));
   if (is_microsoft_nan(at, stop, end)) {
     value = std::numeric_limits<double>::quiet_NaN();
@@ -102,13 +113,6 @@ NumberFault take_number(std::string_view& rest, double& value) {
   if (std::from_chars(word.data(), word_end, value).ptr != word_end) return NumberFault::not_a_number;
   rest = after;
   return NumberFault::decimal_comma;
-}
-
-std::string shown_word(std::string_view text) {
-  std::string word(text.substr(0, 40));
-  for (char& c : word)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
-  return word;
 }
 
 }  // namespace tenebra::formats

@@ -50,6 +50,7 @@ inline bool skip_blanks(std::string_view& rest) {
   return !rest.empty() && rest[0] != '#';
 }
 
+/// `text` without the blanks around it.
 std::string_view trim(std::string_view text);
 
 /// `text` up to a # that begins it or follows a blank, so that names may hold one; trimmed, without quotes
@@ -62,12 +63,9 @@ std::string_view take_word(std::string_view& rest);
 /// What take_number found.
 enum class NumberFault { none, missing, decimal_comma, not_a_number };
 
-/// Takes the number at the front of `rest`, to the nearest double; beyond its range infinity or zero. NaN and
-/// infinity are numbers, in the spelling of Microsoft's libraries too. A decimal comma is read as a point and
-/// reported; what is no number stays in `rest`.
+/// Takes the number at the front of `rest`, to the nearest double; beyond its range infinity or zero. What is
+/// not finite is a number too: inf, nan, and Microsoft's -1.#IND and its like, which become NaN. A decimal
+/// comma is read as a point and reported; what is no number stays in `rest`.
 NumberFault take_number(std::string_view& rest, double& value);
-
-/// `text` for a sentence: at most 40 bytes, control characters as question marks.
-std::string shown_word(std::string_view text);
 
 }  // namespace tenebra::formats
