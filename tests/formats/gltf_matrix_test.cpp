@@ -285,6 +285,22 @@ TEST(GltfExtremes, AHundredThousandNodesTakeLessThanTwoSeconds) {
   }
 }
 
+TEST(GltfExtremes, ListedNodesBelowALongChainTakeLessThanTwoSeconds) {
+  File file;
+  constexpr int half = 50'000;
+  file.root["nodes"] = Json::array();
+  for (int i = 0; i < half; ++i) file.root["nodes"].push_back({{"children", {i + 1}}});
+  Json& last = file.root["nodes"].back()["children"];
+  last.clear();
+  for (int i = half; i < 2 * half; ++i) {
+    file.root["nodes"].push_back({{"name", "leaf"}});
+    last.push_back(i);
+    file.root["scenes"][0]["nodes"].push_back(i);
+  }
+  expect_quick_import(
+      file, [](const Scene& scene) { return scene.nodes.size() == 2 * half && scene.warnings.size() == 1; });
+}
+
 TEST(GltfExtremes, AMillionKeysTakeLessThanTwoSeconds) {
   std::vector<float> times;
   for (int i = 0; i < 1'000'000; ++i) times.push_back(static_cast<float>(i) / 1024);

@@ -146,12 +146,13 @@ TEST(AnimationPointers, OfWrongFormatsAreRefusedAndTheLaterOfTwoCounts) {
   EXPECT_FALSE(vector.import().has_value());
   Pointed twice;
   twice.drive("/cameras/0/perspective/yfov", {1, 1});
-  twice.drive("/cameras/0/perspective/yfov", {1, 1});
+  twice.drive("/cameras/0/perspective/yfov", {2, 2});
   const auto scene = twice.import();
   ASSERT_TRUE(scene.has_value()) << scene.error().message;
   EXPECT_TRUE(std::any_of(scene->warnings.begin(), scene->warnings.end(), [](const std::string& warning) {
     return warning.find("driven twice") != std::string::npos;
   })) << joined(scene->warnings);
+  EXPECT_NEAR(evaluate_camera(*scene, 0, 1, 0, 100, 100).d0.y, std::tan(1.0), 1e-6);
 }
 
 TEST(AnimationPointers, OfTheSampleOfSeventyFourAreReadOrNamed) {

@@ -183,6 +183,12 @@ TEST_F(GltfTolerance, FaultyCamerasAndLightsAreMadeRight) {
   EXPECT_FLOAT_EQ(scene.lights.at(1).outer_cone_rad, static_cast<float>(M_PI / 2));
   EXPECT_EQ(scene.lights[1].intensity, 0);
   EXPECT_EQ(scene.warnings.size(), 5u);
+  for (const char* const warning :
+       {"cameras[1].perspective.yfov: found -1, expected more than 0; made 0.8.",
+        "cameras[1].perspective.znear: found 0, expected more than 0",
+        "cameras[1].perspective.zfar: found -1", "lights[1].intensity: found -3, expected 0 or more; made 0.",
+        "lights[1].spot: found cone angles 2 and 3, expected 0 <= inner <= outer <= pi/2"})
+    EXPECT_TRUE(says(scene, warning)) << warning;
 }
 
 TEST_F(GltfTolerance, AttributesThatDoNotFitAreLeftOut) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "formats/glb/writer.h"
+#include "math/right_angles.h"
 
 namespace tenebra::formats {
 
@@ -28,26 +29,11 @@ int GlbWriter::written_mesh(std::size_t node) const {
   return mesh < 0 || hidden_[node] ? -1 : mesh_of_[static_cast<std::size_t>(mesh)];
 }
 
-namespace {
-
-/// Whether a matrix is a product of translation, rotation and scale, as glTF wants it.
-bool has_right_angles(const glm::dmat4& m) {
-  constexpr double slack = 1e-6;  // relative, as of the reader
-  const glm::dvec3 axes[] = {glm::dvec3(m[0]), glm::dvec3(m[1]), glm::dvec3(m[2])};
-  for (int i = 0; i < 3; ++i) {
-    const glm::dvec3 &a = axes[i], &b = axes[(i + 1) % 3];
-    if (!(std::abs(glm::dot(a, b)) <= slack * glm::length(a) * glm::length(b))) return false;
-  }
-  return true;
-}
-
-}  // namespace
-
 void GlbWriter::write_transform(std::size_t index, GlbJson& written) {
   const Node& node = scene_.nodes[index];
   if (node.matrix) {
     for (int i = 0; i < 16; ++i) written["matrix"].push_back((*node.matrix)[i / 4][i % 4]);
-    if (has_right_angles(*node.matrix)) return;
+    if (math::has_right_angles(*node.matrix)) return;  // a product of translation, rotation and scale
     losses.push_back(fmt::format(
         "nodes[{}] '{}': its matrix is no product of translation, rotation and scale; other programs may "
         "refuse it.",

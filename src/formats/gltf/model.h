@@ -44,8 +44,10 @@ struct Asset {
   std::vector<std::string> buffers;  ///< bytes of model.buffers
   Budget budget{0};
   std::uint64_t decoded_allowed = 0;  ///< bytes of decoded geometry that may still count as the file's own
-  std::vector<bool> animated;         ///< for each node of the file: a channel drives it
-  bool scene_chosen = false;          ///< by the user
+  // For each node of the file, by build_nodes:
+  std::vector<bool> animated;  ///< a channel drives it
+  std::vector<int> parents;    ///< its parent, or -1
+  bool scene_chosen = false;   ///< by the user
   /// Nodes of the scene, the first and how many, that show the instances of one.
   std::map<int, std::pair<int, int>> instances;
   Scene scene;                                               ///< what is being built; its warnings too
@@ -110,9 +112,8 @@ void build_lights(Asset& asset);
 void build_meshes(Asset& asset);
 /// Makes the scene of that name, else of that number, the one that is shown; empty: the file's default.
 void choose_scene(Asset& asset, const std::string& wanted);
-/// The parent of each node of the file, or -1. Throws ImportFailure for a node with several.
-std::vector<int> find_parents(const Model& model);
 /// Nodes of the scene that is shown, parents first. Returns the scene's node of each node of the file, or -1.
+/// Throws ImportFailure for a node with several parents.
 std::vector<int> build_nodes(Asset& asset);
 /// EXT_mesh_gpu_instancing of the file's node `index`: its mesh moves from the scene's node `self` to a
 /// node below it for each instance.

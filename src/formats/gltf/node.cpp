@@ -5,6 +5,7 @@
 
 #include "formats/gltf/model.h"
 #include "formats/gltf/pointer.h"
+#include "math/right_angles.h"
 
 namespace tenebra::formats::gltf {
 namespace {
@@ -28,48 +29,60 @@ std::vector<int> order_from(const Model& model, const std::vector<int>& roots) {
   return order;
 }
 
-/// The nodes of `listed` that are under no other of them.
-std::vector<int> topmost(const std::vector<int>& parents, const std::vector<int>& listed) {
-  std::vector<bool> is_listed(parents.size(), false),
-      is_clear(parents.size(), false);  // clear: none is above it
+/// The nodes of `listed` that are under no other of them. `order`: all nodes, parents first.
+std::vector<int> topmost(const std::vector<int>& parents, const std::vector<int>& order,
+                         const std::vector<int>& listed) {
+  std::vector<bool> is_listed(parents.size(), false), is_under(parents.size(), false);
   for (const int node : listed) is_listed[static_cast<std::size_t>(node)] = true;
-  std::vector<int> tops;
-  for (const int node : listed) {
-    int above = parents[static_cast<std::size_t>(node)];
-    while (above >= 0 && !is_listed[static_cast<std::size_t>(above)] &&
-           !is_clear[static_cast<std::size_t>(above)])
-      above = parents[static_cast<std::size_t>(above)];
-    if (above >= 0 && is_listed[static_cast<std::size_t>(above)]) continue;
-    for (int i = parents[static_cast<std::size_t>(node)]; i >= 0 && !is_clear[static_cast<std::size_t>(i)];
-         i = parents[static_cast<std::size_t>(i)])
-      is_clear[static_cast<std::size_t>(i)] = true;
-    tops.push_back(node);
+  for (const int node : order) {
+    const int parent = parents[static_cast<std::size_t>(node)];
+    is_under[static_cast<std::size_t>(node)] = parent >= 0 && (is_listed[static_cast<std::size_t>(parent)] ||
+                                                               is_under[static_cast<std::size_t>(parent)]);
   }
+  std::vector<int> tops;
+  for (const int node : listed)
+    if (!is_under[static_cast<std::size_t>(node)]) tops.push_back(node);
   return tops;
 }
 
-void check_reached(const std::vector<int>& order, std::size_t count) {
-  std::vector<bool> reached(count, false);
+std::vector<int> find_roots(const std::vector<int>& parents) {
+  std::vector<int> roots;
+  for (std::size_t i = 0; i < parents.size(); ++i)
+    if (parents[i] < 0) roots.push_back(static_cast<int>(i));
+  return roots;
+}
+
+/// All nodes, parents first; refuses those that no root reaches.
+std::vector<int> order_of_all(const Model& model, const std::vector<int>& roots) {
+  std::vector<int> order = order_from(model, roots);
+  std::vector<bool> reached(model.nodes.size(), false);
   for (const int node : order) reached[static_cast<std::size_t>(node)] = true;
   const auto lost = std::find(reached.begin(), reached.end(), false);
   if (lost != reached.end())
     refuse("nodes[{}]: found it in or below a loop of children, expected every node to hang from a root",
            lost - reached.begin());
+  return order;
 }
 
-std::vector<int> default_roots(Asset& asset, const std::vector<int>& parents) {
+/// Once for each scene: a file may list all its nodes.
+void warn_of_children(Asset& asset) {
+  for (std::size_t s = 0; s < asset.model.scenes.size(); ++s) {
+    std::size_t count = 0;
+    int first = -1;
+    for (const int node : asset.model.scenes[s].nodes)
+      if (asset.parents[static_cast<std::size_t>(node)] >= 0 && count++ == 0) first = node;
+    if (count > 0)
+      asset.scene.warnings.push_back(
+          fmt::format("scenes[{}].nodes: found node {} which is a child{}, expected root nodes; shown once, "
+                      "under its parent.",
+                      s, first, count > 1 ? fmt::format(", and {} more", count - 1) : ""));
+  }
+}
+
+/// What the scene that is shown lists; without scenes `roots`.
+std::vector<int> listed_nodes(Asset& asset, const std::vector<int>& roots) {
   const Model& model = asset.model;
-  std::vector<int> roots;
-  for (std::size_t i = 0; i < parents.size(); ++i)
-    if (parents[i] < 0) roots.push_back(static_cast<int>(i));
-  check_reached(order_from(model, roots), model.nodes.size());
-  for (std::size_t s = 0; s < model.scenes.size(); ++s)
-    for (const int node : model.scenes[s].nodes)
-      if (parents[static_cast<std::size_t>(node)] >= 0)
-        asset.scene.warnings.push_back(
-            fmt::format("scenes[{}].nodes: found node {} which is a child, expected root nodes; shown once, "
-                        "under its parent.",
-                        s, node));
+  warn_of_children(asset);
   auto& warnings = asset.scene.warnings;
   if (model.scenes.empty()) {
     if (!roots.empty()) warnings.push_back("The file has no scenes: all root nodes are shown.");
@@ -96,8 +109,9 @@ void add_bare(const std::vector<int>& parents, int node, std::vector<bool>& know
 
 /// All below the nodes that the scene lists, each once, where its tree puts it. What the scene does not list
 /// but the place of these, or of the joints of a skin, depends on is there without what it shows.
-ShownNodes shown_nodes(const Model& model, const std::vector<int>& parents, const std::vector<int>& listed) {
-  const std::vector<int> full = order_from(model, topmost(parents, listed));
+ShownNodes shown_nodes(const Model& model, const std::vector<int>& parents, const std::vector<int>& order,
+                       const std::vector<int>& listed) {
+  const std::vector<int> full = order_from(model, topmost(parents, order, listed));
   ShownNodes shown{{}, std::vector<bool>(model.nodes.size(), false)};
   std::vector<bool> known(model.nodes.size(), false);
   for (const int node : full) known[static_cast<std::size_t>(node)] = true;
@@ -122,12 +136,7 @@ glm::dmat4 to_matrix(const std::vector<double>& m) {
 bool decompose(const glm::dmat4& m, Node& node) {
   glm::dvec3 x(m[0]), y(m[1]), z(m[2]);
   glm::dvec3 scale(glm::length(x), glm::length(y), glm::length(z));
-  constexpr double slack = 1e-6;  // relative to the lengths: matrices in files have six or more digits
-  if (std::min({scale.x, scale.y, scale.z}) <= 0) return false;
-  if (std::abs(glm::dot(x, y)) > slack * scale.x * scale.y ||
-      std::abs(glm::dot(y, z)) > slack * scale.y * scale.z ||
-      std::abs(glm::dot(z, x)) > slack * scale.z * scale.x)
-    return false;
+  if (std::min({scale.x, scale.y, scale.z}) <= 0 || !math::has_right_angles(m)) return false;
   if (glm::dot(glm::cross(x, y), z) < 0) scale.x = -scale.x;
   node.translation = glm::dvec3(m[3]);
   node.rotation = glm::normalize(glm::quat_cast(glm::dmat3(x / scale.x, y / scale.y, z / scale.z)));
@@ -259,8 +268,7 @@ void check_size(const Scene& scene) {
            triangles, vertices, most);
 }
 
-}  // namespace
-
+/// The parent of each node, or -1. Refuses a node with several.
 std::vector<int> find_parents(const Model& model) {
   std::vector<int> parents(model.nodes.size(), -1);
   for (std::size_t i = 0; i < model.nodes.size(); ++i)
@@ -274,11 +282,14 @@ std::vector<int> find_parents(const Model& model) {
   return parents;
 }
 
+}  // namespace
+
 std::vector<int> build_nodes(Asset& asset) {
   const Model& model = asset.model;
-  const std::vector<int> parents = find_parents(model);
+  const std::vector<int>& parents = asset.parents = find_parents(model);
   note_animated(asset);
-  const ShownNodes shown = shown_nodes(model, parents, default_roots(asset, parents));
+  const std::vector<int> roots = find_roots(parents), order = order_of_all(model, roots);
+  const ShownNodes shown = shown_nodes(model, parents, order, listed_nodes(asset, roots));
   std::vector<int> scene_node(model.nodes.size(), -1);
   std::vector<int> silent_mesh(asset.scene.meshes.size(), -1);
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {  // nodes that are not shown must be right too

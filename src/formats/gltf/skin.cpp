@@ -6,7 +6,7 @@
 namespace tenebra::formats::gltf {
 namespace {
 
-/// Each joint has a place all the same.
+/// Warns where joints hang from different roots; each has a place all the same.
 void check_common_root(const std::vector<int>& joints, const std::vector<int>& parents, std::size_t skin,
                        std::vector<std::string>& warnings) {
   std::vector<int> root(parents.size(), -1);  // known roots, so that long chains are climbed once
@@ -61,14 +61,13 @@ void check_last_rows(Asset& asset, const std::vector<double>& matrices, std::siz
 }  // namespace
 
 void build_skins(Asset& asset, const std::vector<int>& scene_node) {
-  const std::vector<int> parents = find_parents(asset.model);
   std::vector<bool> used(asset.model.skins.size(), false);
   for (const Node& node : asset.scene.nodes)
     if (node.skin >= 0) used[static_cast<std::size_t>(node.skin)] = true;
   for (std::size_t s = 0; s < asset.model.skins.size(); ++s) {
     const auto& source = asset.model.skins[s];
     Skin skin;
-    check_common_root(source.joints, parents, s, asset.scene.warnings);
+    check_common_root(source.joints, asset.parents, s, asset.scene.warnings);
     for (const int joint : source.joints) {
       skin.joints.push_back(scene_node[static_cast<std::size_t>(joint)]);
       if (used[s] && skin.joints.back() < 0)

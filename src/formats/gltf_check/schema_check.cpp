@@ -163,13 +163,18 @@ private:
   void check_refs(Json& value, const std::string& place, const char* section) {
     std::set<std::uint64_t> seen;
     Json once = Json::array();
+    std::string first;  // what is repeated
+    std::size_t repeats = 0;
     check_items(value, place, [&](Json& item, const std::string& at) {
       check_ref(item, at, section);
       if (seen.insert(item.get<std::uint64_t>()).second)
         once.push_back(item);
-      else
-        warnings_.push_back(fmt::format("{}: found {} twice, expected each once.", at, shorten(item)));
+      else if (repeats++ == 0)
+        first = fmt::format("{}: found {} twice", at, shorten(item));
     });
+    if (repeats > 0)
+      warnings_.push_back(fmt::format("{}{}, expected each once.", first,
+                                      repeats > 1 ? fmt::format(", and {} more repeats", repeats - 1) : ""));
     if (!place.ends_with(".joints")) value = std::move(once);
   }
 
