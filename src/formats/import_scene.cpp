@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <new>
 #include <string_view>
 
 #include "base/fail.h"
+#include "base/lower_case.h"
 #include "formats/place_scene.h"
 
 namespace tenebra::formats {
@@ -18,13 +20,6 @@ Expected<Scene> placed(Expected<Scene> scene, const Placement& placement) {
   return scene;
 }
 
-std::string extension_of(const fs::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return extension;
-}
-
 bool is_scene_extension(const std::string& extension) {
   static constexpr std::string_view known[] = {".aff", ".nff", ".gltf", ".glb", ".obj"};
   return std::find(std::begin(known), std::end(known), extension) != std::end(known);
@@ -34,9 +29,11 @@ bool is_scene_extension(const std::string& extension) {
 fs::path scene_in(const fs::path& folder) {
   fs::path first;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (is_scene_extension(extension_of(entry.path())) && (first.empty() || entry.path() < first))
-      first = entry.path();
+  // Not by a range: its ++ throws where a folder cannot be read to its end.
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    const fs::path& path = at->path();
+    if (is_scene_extension(base::extension_of(path)) && (first.empty() || path < first)) first = path;
+  }
   return first;
 }
 
@@ -89,15 +86,14 @@ void warn_of_nothing(Scene& scene) {
 
 /// By the file's extension.
 Expected<Scene> read_scene(const fs::path& path, const ImportOptions& options) {
-  const std::string extension = extension_of(path);
+  const std::string extension = base::extension_of(path);
   const bool gltf = extension == ".gltf" || extension == ".glb";
   if (const std::string other = other_content(path); !other.empty())
     return base::fail("{}: {}.", path.string(), other);
   if (!is_scene_extension(extension))
     return base::fail(
         "{}: found the extension '{}', expected .aff, .nff, .gltf, .glb or .obj: export it as glTF (in "
-        "Blender: File > "
-        "Export > glTF 2.0).",
+        "Blender: File > Export > glTF 2.0).",
         path.string(), extension);
   if (!options.scene.empty() && !gltf)
     return base::fail("{}: found no scenes to choose from, expected a glTF file for scene '{}'.",
@@ -112,11 +108,15 @@ Expected<Scene> read_scene(const fs::path& path, const ImportOptions& options) {
 }  // namespace
 
 Expected<Scene> import_scene(const fs::path& path, const ImportOptions& options) {
-  auto scene = read_scene(path, options);
-  if (!scene) return scene;
-  warn_of_nothing(*scene);
-  warn_of_tolerance(*scene);
-  return scene;
+  try {
+    auto scene = read_scene(path, options);
+    if (!scene) return scene;
+    warn_of_nothing(*scene);
+    warn_of_tolerance(*scene);
+    return scene;
+  } catch (const std::bad_alloc&) {
+    return base::fail("{}: found more than the memory can hold, expected a smaller scene.", path.string());
+  }
 }
 
 }  // namespace tenebra::formats

@@ -14,7 +14,7 @@ namespace tenebra::formats {
 struct ImportOptions {
   int cone_sides = 64;  ///< AFF `c`: sides of a cone or cylinder (the 2011 paper's count needs 8)
   std::string scene;  ///< glTF: which of the file's scenes, by name or number; empty: the one it shows first
-  Placement placement;          ///< followed by import_scene alone
+  Placement placement;          ///< import_obj follows it; for the others import_scene does
   bool keep_unrounded = false;  ///< fill Mesh::unrounded where positions are rounded
   /// Files that the scene names may lie anywhere in this folder, by `..` too; empty: in the scene's folder.
   std::filesystem::path root = {};

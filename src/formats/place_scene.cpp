@@ -7,6 +7,7 @@
 #include <map>
 
 #include "math/box.h"
+#include "math/vertex_rounding.h"
 #include "scene/pose.h"
 #include "scene/unrounded.h"
 
@@ -116,8 +117,7 @@ void warn_of_tolerance(Scene& scene) {
   scene::each_unrounded(scene, start.clip, start.time_s,
                         [&](std::size_t, const glm::dvec3& place) { bounds.add(place); });
   if (bounds.empty() || !std::isfinite(bounds.diagonal())) return;
-  constexpr double of_two_triangles = 2 * 1.7320508075688772 * 0x1p-24;  // points/contact_rule.h
-  const double tolerance_m = of_two_triangles * bounds.largest_coordinate();
+  const double tolerance_m = 2 * math::vertex_rounding * bounds.largest_coordinate();  // of two triangles
   const int side = bounds.longest_side();
   if (!(tolerance_m > std::min(1e-3, 1e-3 * (bounds.high[side] - bounds.low[side])))) return;
   scene.warnings.push_back(fmt::format(

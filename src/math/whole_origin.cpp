@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "math/box.h"
+#include "math/vertex_rounding.h"
 
 namespace tenebra::math {
 namespace {
@@ -56,8 +57,7 @@ Extent bounds_of_most(std::span<const glm::dvec3> points) {
 
 /// Whether rounding to float moves a corner of `box` by more than half a millimetre.
 bool rounds_visibly(const Extent& box, double metres_per_unit) {
-  constexpr double rounding = 1.7320508075688772 * 0x1p-24;  // of a vertex, for a largest coordinate of 1
-  return rounding * box.largest_coordinate() * metres_per_unit > 0.5e-3;
+  return vertex_rounding * box.largest_coordinate() * metres_per_unit > 0.5e-3;
 }
 
 /// The smallest of 1, 2, 5, 10, 20 ... above `size`.

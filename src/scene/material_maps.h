@@ -7,11 +7,6 @@
 
 namespace tenebra::scene {
 
-inline std::array<TextureMap*, 9> texture_maps(Material& m) {
-  return {&m.base_color_map,   &m.emissive_map,       &m.metallic_roughness_map,
-          &m.specular_map,     &m.specular_share_map, &m.exponent_map,
-          &m.transmission_map, &m.normal_map,         &m.occlusion_map};
-}
 inline std::array<const TextureMap*, 9> texture_maps(const Material& m) {
   return {&m.base_color_map,   &m.emissive_map,       &m.metallic_roughness_map,
           &m.specular_map,     &m.specular_share_map, &m.exponent_map,
