@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "commands/command.h"
+#include "options/help_pages.h"
 #include "options/options_page.h"
 #include "options/setting_options.h"
 #include "options/settings_names.h"
@@ -36,7 +37,7 @@ constexpr const char* first_steps =
     "  tenebra info scenes/city.glb                      what a scene contains\n"
     "  tenebra render scenes/city.glb                    its first frame, to out/0000.png\n"
     "  tenebra render scenes/city.glb --frames all       the whole animation\n"
-    "  tenebra help COMMAND                              the options of a command, with examples\n"
+    "  tenebra help COMMAND [TOPIC]                      the options of a command, with examples\n"
     "\n"
     "Scenes: glTF 2.0 (.gltf, .glb), BART's AFF (.aff, .nff), Wavefront OBJ (.obj).\n"
     "A failure is one sentence on standard error and exit code 1 (2 from compare, 75 if memory runs out).";
@@ -95,11 +96,8 @@ int parse_and_run(CLI::App& program, Run& run, const std::vector<std::string>& a
   try {
     program.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // the last one first
   } catch (const CLI::CallForHelp&) {
-    // The help of the command that was asked about; CLI11 descends to it.
-    tenebra::viewer::print_out("{}", program.help());
-    return flush_output(0);
-  } catch (const CLI::CallForAllHelp&) {
-    tenebra::viewer::print_out("{}", tenebra::viewer::further_help(*program.get_subcommands().front()));
+    tenebra::viewer::print_out("{}",
+                               tenebra::viewer::help_page(program, tenebra::viewer::help_topic(arguments)));
     return flush_output(0);
   } catch (const CLI::CallForVersion& version) {
     tenebra::viewer::print_out("{}\n", version.what());
@@ -136,7 +134,7 @@ int main(int argc, char** argv) {
     CLI::App program{about, "tenebra"};
     program.footer(first_steps);
     program.set_version_flag("--version", "tenebra " TENEBRA_VERSION);
-    program.get_formatter()->column_width(34);
+    program.formatter(tenebra::viewer::help_format());
     Run run;
     tenebra::viewer::add_view_command(program, run);
     tenebra::viewer::add_render_command(program, run);

@@ -133,7 +133,6 @@ void add_ao_memory(MethodRows& rows) {
        .standard = "$XDG_CACHE_HOME/tenebra or ~/.cache/tenebra",
        .group = Group::ao,
        .affects = Affects::speed,
-       .audience = Audience::rare,
        .used = Used::with_ao},
       [](auto& method) -> auto& { return method.render.ao.cache; }, parse_cache,
       [](const std::filesystem::path& cache) {

@@ -103,8 +103,7 @@ Setting<SceneSettings> file_root() {
                         .help = "Folder anywhere in which the files that a scene names may lie, by ../ too",
                         .standard = "the scene's folder",
                         .group = Group::scene,
-                        .affects = Affects::files,
-                        .audience = Audience::rare},
+                        .affects = Affects::files},
                        read, texts);
 }
 
@@ -169,8 +168,7 @@ void add_files(SceneRows& rows) {
   rows.push_back(SceneRow::flag(
       {.name = "cast-all",
        .help = "Let a sky that hides a light from the whole scene cast its shadow",
-       .group = Group::scene,
-       .audience = Audience::rare},
+       .group = Group::scene},
       [](auto& scene) -> auto& { return scene.cast_all; }));
   rows.push_back(SceneRow::number(
       {.name = "cone-sides",
@@ -186,7 +184,6 @@ void add_files(SceneRows& rows) {
        .help =
            "Triangles that may be added where alpha cuts a surface out; the cut is coarser if it takes more",
        .group = Group::scene,
-       .audience = Audience::rare,
        .range = {0, 1e6},
        .expected = "a whole number from 0 to 1000000"},
       [](auto& scene) -> auto& { return scene.cutout_limit; }));
@@ -267,7 +264,6 @@ void add_moment(SceneRows& rows) {
        .value = "F",
        .help = "Frames per second where the scene does not number its frames itself (glTF)",
        .group = Group::scene,
-       .audience = Audience::rare,
        .range = {above_0, any_number},
        .expected = "a number above 0"},
       [](auto& scene) -> auto& { return scene.fps; }));

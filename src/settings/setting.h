@@ -16,9 +16,9 @@
 
 namespace tenebra::settings {
 
-/// Whom a setting is for. `rare`: users of special files or machines; `paper`: the methods of the papers and
-/// experiments on them. Both are out of the way of all others.
-enum class Audience { user, rare, paper };
+/// Whom a setting is for. `paper`: the methods of the papers and experiments on them, out of the way of
+/// others.
+enum class Audience { user, paper };
 /// What a setting changes: what pictures show, how long they take, or which files there are and where.
 enum class Affects { picture, speed, files };
 /// What a setting belongs to, in the order of the help.

@@ -94,7 +94,7 @@ std::string options_page() {
         text += line(row);
   }
   text +=
-      "\n## For the papers' experiments\n\n`--paper` may be repeated; `tenebra render --help-all` lists "
+      "\n## For the papers' experiments\n\n`--paper` may be repeated; `tenebra render --help paper` lists "
       "these.\n" +
       table_head();
   for (const PageRow& row : rows)

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/fail.h"
+#include "options/command_settings.h"
 #include "options/output_table.h"
 #include "options/settings_names.h"
 
@@ -14,10 +15,8 @@ namespace tenebra::viewer {
 namespace {
 
 using settings::About;
-using settings::Audience;
 using settings::Group;
 
-constexpr const char* paper_option = "--paper";
 constexpr const char* hidden = "";
 constexpr std::size_t help_width = 59;
 
@@ -27,41 +26,6 @@ std::string title(Group group) {
 
 std::string help_text(const About& about, const std::string& standard) {
   return standard.empty() ? std::string(about.help) : fmt::format("{} [{}]", about.help, standard);
-}
-
-std::string long_name(std::string_view name) {
-  return fmt::format("--{}", name);
-}
-
-/// "--soft-error" without its dashes.
-std::string setting_of(const CLI::Option& option) {
-  const auto& names = option.get_lnames();
-  return names.empty() ? "" : names.front();
-}
-
-/// The settings of `command` that `fit`.
-std::vector<const About*> settings_where(const CLI::App& command, auto fit) {
-  std::vector<const About*> found;
-  for (const CLI::Option* option : command.get_options())
-    if (const About* about = about_of(setting_of(*option)); about != nullptr && fit(*about))
-      found.push_back(about);
-  return found;
-}
-
-/// Those that keys of `option` give, by hidden options of their own.
-std::vector<const About*> settings_by(const CLI::App& command, const std::string& option) {
-  return settings_where(command, [&](const About& about) {
-    const std::string as = settings::given_as(about);
-    return as != long_name(about.name) + " " && as.starts_with(option + " ");
-  });
-}
-
-std::vector<const About*> rare_settings(const CLI::App& command) {
-  return settings_where(command, [](const About& about) { return about.audience == Audience::rare; });
-}
-
-CLI::Option* option_for(CLI::App& command, const About& about) {
-  return command.get_option(long_name(about.name));
 }
 
 /// What `text`, given to `option`, is the value of by a key; none: it has no key.
@@ -100,20 +64,11 @@ void add_paper(CLI::App& command) {
   };
   command
       .add_option_function<std::vector<std::string>>(
-          paper_option, read, "A setting for the papers' experiments, listed by\n--help-all; may be repeated")
+          paper_option, read,
+          "A setting for the papers' experiments, listed by\n--help paper; may be repeated")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE")
       ->group(title(Group::run));
-  if (command.get_help_ptr() == nullptr) return;
-  command
-      .set_help_all_flag("--help-all,--help-paper", "List what is rarely needed, and the settings of --paper")
-      ->group(title(Group::run));
-}
-
-/// Where another page of help lists them.
-void hide_rare(CLI::App& command) {
-  if (command.get_help_all_ptr() == nullptr) return;
-  for (const About* about : rare_settings(command)) option_for(command, *about)->group(hidden);
 }
 
 void link_needs(CLI::App& command) {
@@ -163,7 +118,6 @@ AddedOption add_setting(CLI::App& command, const About& about, const std::string
 
 void complete_settings(CLI::App& command) {
   add_paper(command);
-  hide_rare(command);
   link_needs(command);
 }
 
@@ -251,40 +205,6 @@ std::string did_you_mean(const CLI::App& command) {
     return settings::did_you_mean(argument.substr(2, argument.find('=') - 2), known, "--{}");
   }
   return "";
-}
-
-namespace {
-
-/// Names and helps in two columns.
-std::string help_rows(CLI::App& command, const std::vector<const About*>& settings, std::string_view before,
-                      std::string_view behind) {
-  constexpr std::size_t column = 34;
-  std::string text;
-  for (const About* about : settings) {
-    const CLI::Option* option = option_for(command, *about);
-    const std::string value =
-        option->get_expected_min() == 0 ? "" : fmt::format("{}{}", behind, option->get_type_name());
-    const std::string name = fmt::format("  {}{}{}", before, about->name, value);
-    std::string help = option->get_description();
-    for (std::size_t at = 0; (at = help.find('\n', at)) != std::string::npos; at += column + 1)
-      help.insert(at + 1, column, ' ');
-    const bool fits = name.size() < column;
-    text += fits ? fmt::format("{:<{}}{}\n", name, column, help)
-                 : fmt::format("{}\n{:{}}{}\n", name, "", column, help);
-  }
-  return text;
-}
-
-}  // namespace
-
-std::string further_help(CLI::App& command) {
-  return fmt::format(
-      "Rarely needed: tenebra {0} ...\n\n{1}\n"
-      "Settings for the papers' experiments: tenebra {0} --paper KEY=VALUE, which may be repeated. The "
-      "defaults are the\n"
-      "better methods; pictures are the same with most of these.\n\n{2}",
-      command.get_name(), help_rows(command, rare_settings(command), "--", " "),
-      help_rows(command, settings_by(command, paper_option), "", "="));
 }
 
 }  // namespace tenebra::viewer

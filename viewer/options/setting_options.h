@@ -22,8 +22,8 @@ std::string wrapped(std::string_view text);
 /// option are hidden.
 AddedOption add_setting(CLI::App& command, const settings::About& about, const std::string& standard,
                         ReadTexts read);
-/// Adds --paper KEY=VALUE and --help-all for the hidden settings that `command` has so far, and what
-/// settings need of each other. Once for each command.
+/// Adds --paper KEY=VALUE for the hidden settings that `command` has so far, and what settings need of each
+/// other. Once for each command.
 void complete_settings(CLI::App& command);
 
 /// Adds the rows of `names` (none: all), read into `part`, which must live as long as `command`.
@@ -69,8 +69,5 @@ bool is_quiet(const CLI::App& command);
 
 /// " (did you mean --size?)" of the first argument that is no option of `command`; empty: none is near.
 std::string did_you_mean(const CLI::App& command);
-
-/// What --help-all prints: the rare settings and those of --paper.
-std::string further_help(CLI::App& command);
 
 }  // namespace tenebra::viewer
