@@ -44,15 +44,16 @@ MAY_INCLUDE = {
 ROOMS = {
     "io": ["", "exr"],
     "stage": ["cutout", "edits", ""],
-    "formats": ["", "gltf_check", "images", "obj", "aff", "gltf", "glb"],
+    "formats": ["", "gltf_check", "images", "obj", "ply", "stl", "aff", "gltf", "glb"],
     "shadow": ["decision", "rays", "cone_tree", "tiles", ""],
     "soft": ["memory", "light", "polygon", "groups", "shafts", "occluders", "clip", "silhouette", "bsp", "solve", "sample", ""],
     "ao": ["objects", "cast", "cache", "receivers", "casters", "adaptive", "reference", "field", "surface", "presampled", ""],
 }
+FORMATS = ("obj", "ply", "stl", "aff", "gltf", "glb")  # its readers and the writer
 APART = {("edits", "cutout"), ("tiles", "cone_tree"), ("silhouette", "clip"), ("bsp", "clip"), ("bsp", "silhouette"),
          ("reference", "adaptive"), ("field", "adaptive"), ("surface", "adaptive"), ("presampled", "adaptive"),
          ("field", "reference"), ("surface", "reference"), ("presampled", "reference"),
-         ("aff", "obj"), ("gltf", "obj"), ("gltf", "aff"), ("glb", "obj"), ("glb", "aff"), ("glb", "gltf")}  # may not see each other
+         *((a, b) for a in FORMATS for b in FORMATS if a != b)}  # may not see each other
 
 # What may be named where: (pattern, what it is, folders, rooms or files that may).
 CONTAINED = [

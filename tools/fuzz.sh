@@ -1,10 +1,10 @@
 #!/bin/bash
-# Looks for input that breaks code that reads files: scenes (AFF, glTF, GLB, OBJ; those that can be read are written as
+# Looks for input that breaks code that reads files: scenes (AFF, glTF, GLB, OBJ, PLY, STL; those that can be read are written as
 # GLB and read again), pictures, option files, edits, --ao-cache; and for triangles for which the methods of hard and
 # soft shadows and ambient occlusion disagree with each other or with the oracles. Builds the fuzzers of tests/fuzz with
 # clang's libFuzzer, address sanitizer and the quick checks of undefined behaviour, in build-fuzz, and runs them one
 # after the other for MINUTES in all.
-# Usage: tools/fuzz.sh MINUTES [FUZZER...]    FUZZER: aff gltf glb obj picture exr config edits cache hard soft ao [all]
+# Usage: tools/fuzz.sh MINUTES [FUZZER...]    FUZZER: aff gltf glb obj ply stl picture exr config edits cache hard soft ao [all]
 # They start from tests/fuzz/corpus and from what earlier runs found, in build-fuzz/corpus. Input that breaks something
 # is left in build-fuzz/found, and the fuzzer's output says what happened.
 # Without clang, and in CI, the tests give the same fuzzers what is in the corpus and changed inputs (tests/fuzz/replay.cpp;
@@ -12,7 +12,7 @@
 # Exit code: 0 nothing found, or no clang here; 1 something found; 2 the request was not understood.
 set -uo pipefail
 cd "$(dirname "$0")/.."
-fuzzers=(aff gltf glb obj picture exr config edits cache hard soft ao)
+fuzzers=(aff gltf glb obj ply stl picture exr config edits cache hard soft ao)
 
 if [[ ! ${1:-} =~ ^[0-9]+$ || $1 =~ ^0+$ ]]; then
   echo "tools/fuzz.sh: found '${1:-}', expected the minutes to run, like 10" >&2

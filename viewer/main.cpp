@@ -39,7 +39,7 @@ constexpr const char* first_steps =
     "  tenebra render scenes/city.glb --frames all       the whole animation\n"
     "  tenebra help COMMAND [TOPIC]                      the options of a command, with examples\n"
     "\n"
-    "Scenes: glTF 2.0 (.gltf, .glb), BART's AFF (.aff, .nff), Wavefront OBJ (.obj).\n"
+    "Scenes: glTF 2.0, OBJ, PLY, STL, BART's AFF and more (tenebra info --formats).\n"
     "A failure is one sentence on standard error and exit code 1 (2 from compare, 75 if memory runs out).";
 
 int report(const std::string& sentence, int code) {

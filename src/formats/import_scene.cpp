@@ -7,23 +7,13 @@
 #include <string_view>
 
 #include "base/fail.h"
-#include "base/lower_case.h"
+#include "formats/format_list.h"
 #include "formats/place_scene.h"
 
 namespace tenebra::formats {
 namespace {
 
 namespace fs = std::filesystem;
-
-Expected<Scene> placed(Expected<Scene> scene, const Placement& placement) {
-  if (scene) place_scene(placement, *scene);
-  return scene;
-}
-
-bool is_scene_extension(const std::string& extension) {
-  static constexpr std::string_view known[] = {".aff", ".nff", ".gltf", ".glb", ".obj"};
-  return std::find(std::begin(known), std::end(known), extension) != std::end(known);
-}
 
 /// The first scene file of `folder` by name, or empty.
 fs::path scene_in(const fs::path& folder) {
@@ -32,7 +22,7 @@ fs::path scene_in(const fs::path& folder) {
   // Not by a range: its ++ throws where a folder cannot be read to its end.
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     const fs::path& path = at->path();
-    if (is_scene_extension(base::extension_of(path)) && (first.empty() || path < first)) first = path;
+    if (format_of(path) != nullptr && (first.empty() || path < first)) first = path;
   }
   return first;
 }
@@ -86,23 +76,17 @@ void warn_of_nothing(Scene& scene) {
 
 /// By the file's extension.
 Expected<Scene> read_scene(const fs::path& path, const ImportOptions& options) {
-  const std::string extension = base::extension_of(path);
-  const bool gltf = extension == ".gltf" || extension == ".glb";
   if (const std::string other = other_content(path); !other.empty())
     return base::fail("{}: {}.", path.string(), other);
-  if (!is_scene_extension(extension))
+  const FileFormat* const format = format_of(path);
+  if (format == nullptr)
     return base::fail(
-        "{}: found the extension '{}', expected .aff, .nff, .gltf, .glb or .obj: export it as glTF (in "
-        "Blender: File > Export > glTF 2.0).",
-        path.string(), extension);
-  if (!options.scene.empty() && !gltf)
+        "{}: found the extension '{}', expected one of {} ('tenebra info --formats' lists what is read): {}.",
+        path.string(), path.extension().string(), known_extensions(), way_to_gltf(path));
+  if (!options.scene.empty() && format->read != format_of("a.glb")->read)
     return base::fail("{}: found no scenes to choose from, expected a glTF file for scene '{}'.",
                       path.string(), options.scene);
-  if (gltf) return placed(import_gltf(path, options), options.placement);
-  if (extension == ".obj") return import_obj(path, options);
-  Placement placement = options.placement;  // BART's scenes keep their floats: pictures of them are compared
-  if (placement.offset == OffsetChoice::automatic) placement.offset = OffsetChoice::none;
-  return placed(import_aff(path, options), placement);
+  return format->read(path, options);
 }
 
 }  // namespace

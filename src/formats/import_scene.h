@@ -1,4 +1,4 @@
-// From a scene file to a Scene: BART's AFF (and NFF), glTF 2.0 (.gltf, .glb), Wavefront OBJ.
+// From a scene file to a Scene, by the reader that format_list.h names.
 #pragma once
 
 #include <filesystem>
@@ -25,7 +25,7 @@ struct ImportOptions {
   std::vector<std::filesystem::path>* files_read = nullptr;
 };
 
-/// Imports by the file's extension (.aff .nff .gltf .glb .obj). Never crashes, hangs or leaves the scene's
+/// Imports by the file's extension (file_formats). Never crashes, hangs or leaves the scene's
 /// folder (ImportOptions::root); what leaves the geometry in doubt it refuses in one sentence (file, line or
 /// JSON path, found, expected), and warns of other faults.
 /// Pictures are read from the scene's folder, its folders textures and TextureFiles, and the texture paths;
@@ -38,6 +38,8 @@ Expected<Scene> import_scene(const std::filesystem::path& path, const ImportOpti
 Expected<Scene> import_aff(const std::filesystem::path& path, const ImportOptions& options);
 Expected<Scene> import_gltf(const std::filesystem::path& path, const ImportOptions& options = {});
 Expected<Scene> import_obj(const std::filesystem::path& path, const ImportOptions& options = {});
+Expected<Scene> import_ply(const std::filesystem::path& path, const ImportOptions& options = {});
+Expected<Scene> import_stl(const std::filesystem::path& path, const ImportOptions& options = {});
 
 /// Writes `scene` with its animation as a binary glTF 2.0 file. BART's splines are baked to `fps` keys a
 /// second (the clip's own frames where it states them); shapes become morph targets. Returns what glTF cannot

@@ -1,14 +1,8 @@
 #include "formats/placement.h"
 
-#include "base/lower_case.h"
 #include "math/whole_origin.h"
 
 namespace tenebra::formats {
-
-bool states_coordinates(const std::filesystem::path& file) {
-  const std::string extension = base::extension_of(file);
-  return extension == ".gltf" || extension == ".glb";
-}
 
 FileFrame choose_frame(const Placement& placement, const FormatCoordinates& format,
                        std::span<const glm::dvec3> points, std::span<const glm::dvec3> carriers) {

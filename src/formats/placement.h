@@ -2,7 +2,6 @@
 // anything becomes a float.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <span>
 
@@ -19,9 +18,6 @@ struct Placement {
   OffsetChoice offset = OffsetChoice::automatic;
   glm::dvec3 given_offset{0.0};  ///< finite, in the file's coordinates
 };
-
-/// Whether the format of `file`, by its extension, says which axis is up and what the unit is.
-bool states_coordinates(const std::filesystem::path& file);
 
 /// What a format says about the coordinates of all its files.
 struct FormatCoordinates {

@@ -60,7 +60,7 @@ void add_convert_command(CLI::App& program, Run& run) {
       add_command(program, "convert", "Write a scene, with its animation, as binary glTF 2.0");
   const auto options = std::make_shared<ConvertOptions>();
   set_examples(command, convert_examples);
-  add_text(command, "IN", options->scene.file, "Scene file: .gltf .glb .aff .nff .obj").required();
+  add_text(command, "IN", options->scene.file, "Scene file (tenebra info --formats)").required();
   add_text(command, "OUT", options->output, "File to write, .glb").required();
   add_value(command, "--fps", options->fps, parse_positive, "Keys per second for baked splines [30]")
       .type_name("F");

@@ -9,6 +9,7 @@
 #include "base/fail.h"
 #include "commands/command.h"
 #include "commands/gl_survey.h"
+#include "formats/format_list.h"
 #include "options/memory_option.h"
 #include "options/method_options.h"
 #include "options/scene_options.h"
@@ -33,6 +34,7 @@ constexpr const char* info_examples =
     "  tenebra info scenes/city.glb\n"
     "  tenebra info scenes/city.glb --json | python3 -m json.tool\n"
     "  tenebra info --gl\n"
+    "  tenebra info --formats\n"
     "\n"
     "Triangles and bounds are those of the first frame; bounds are in metres, along the axes and from the "
     "zero\n"
@@ -45,6 +47,7 @@ struct InfoOptions {
   bool meter = false;
   bool json = false;
   bool gl = false;
+  bool formats = false;
 };
 
 template <class T>
@@ -64,7 +67,8 @@ Json turned_to_file(const FileFrame& frame, const glm::vec3& direction) {
 /// Which way the file's coordinates are taken, and what of it is no statement of the file's or the user's.
 Json coordinates_of(const Scene& scene, const InfoOptions& options) {
   const formats::Placement& asked = options.scene.import.placement;
-  const bool stated = formats::states_coordinates(options.scene.file);
+  const formats::FileFormat* const format = formats::format_of(options.scene.file);
+  const bool stated = format != nullptr && format->states_coordinates;
   Json json{{"up", scene.frame.up == UpAxis::z ? "z" : "y"},
             {"metres_per_unit", scene.frame.metres_per_unit},
             {"offset", list(scene.frame.origin)}};
@@ -296,9 +300,26 @@ Expected<void> add_metered(const InfoOptions& options, bool unknown, Json& json)
   return {};
 }
 
+/// Which files are read.
+int print_formats(bool as_json) {
+  Json list = Json::array();
+  for (const formats::FileFormat& format : formats::file_formats())
+    list.push_back({{"extensions", format.extensions},
+                    {"name", format.name},
+                    {"reader", format.reader},
+                    {"kept", format.kept},
+                    {"states_coordinates", format.states_coordinates}});
+  if (as_json) print_out("{}\n", list.dump(2));
+  if (!as_json)
+    for (const formats::FileFormat& format : formats::file_formats())
+      print_out("{:<13}{:<20}{:<8}{}\n", format.extensions, format.name, format.reader, format.kept);
+  return 0;
+}
+
 Expected<int> info(const InfoOptions& options) {
   if (options.gl) return print_gl_survey(options.json);
-  if (options.scene.file.empty()) return base::fail("SCENE is required, or --gl");
+  if (options.formats) return print_formats(options.json);
+  if (options.scene.file.empty()) return base::fail("SCENE is required, or --gl or --formats");
   if (auto limited = limit_memory(options.memory_mb); !limited) return tl::unexpected(limited.error());
   auto scene = formats::import_scene(options.scene.file, options.scene.import);
   if (!scene) return tl::unexpected(scene.error());
@@ -323,11 +344,13 @@ void add_info_command(CLI::App& program, Run& run) {
       add_command(program, "info", "Say what a scene contains: counts, bounds, lights, cameras, animations");
   const auto options = std::make_shared<InfoOptions>();
   set_examples(command, info_examples);
-  add_text(command, "SCENE", options->scene.file, "Scene file: .gltf .glb .aff .nff .obj");
+  add_text(command, "SCENE", options->scene.file, "Scene file (--formats)");
   add_import_options(command, options->scene);
   add_flag(command, "--meter", options->meter, "Also measure what --exposure auto is, with each tone");
   add_flag(command, "--json", options->json, "Print JSON");
   add_flag(command, "--gl", options->gl, "Say which OpenGL this machine has, in place of a scene");
+  add_flag(command, "--formats", options->formats,
+           "List the kinds of files that are read, in place of a scene");
   add_memory_option(command, options->memory_mb);
   add_value(command, "--fps", options->fps, parse_positive, "Frames per second, to count frames [30]")
       .type_name("F");

@@ -4,7 +4,7 @@ namespace tenebra::viewer {
 namespace {
 
 void add_file(CLI::App& command, SceneOptions& options) {
-  add_text(command, "SCENE", options.file, "Scene file: .gltf .glb .aff .nff .obj");
+  add_text(command, "SCENE", options.file, "Scene file (tenebra info --formats)");
 }
 
 }  // namespace

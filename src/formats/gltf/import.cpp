@@ -1,8 +1,6 @@
 // import_gltf: the stages in their order; the only place that knows them all.
-#include <exception>
-
-#include "base/fail.h"
 #include "formats/gltf/model.h"
+#include "formats/import_guard.h"
 #include "formats/import_scene.h"
 #include "formats/scene_file.h"
 
@@ -34,15 +32,7 @@ Scene read_gltf(const std::filesystem::path& path, const ImportOptions& options)
 }  // namespace
 
 Expected<Scene> import_gltf(const std::filesystem::path& path, const ImportOptions& options) {
-  try {
-    return read_gltf(path, options);
-  } catch (const ImportFailure& failure) {
-    return base::fail("{}: {}.", path.string(), failure.what());
-  } catch (const std::bad_alloc&) {
-    return base::fail("{}: found more than the memory can hold, expected a smaller scene.", path.string());
-  } catch (const std::exception& error) {
-    return base::fail("{}: found a fault ({}), expected a glTF file.", path.string(), error.what());
-  }
+  return guarded_import(path, "a glTF file", [&] { return read_gltf(path, options); });
 }
 
 }  // namespace tenebra::formats

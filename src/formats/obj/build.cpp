@@ -1,22 +1,18 @@
 #include "formats/obj/build.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <span>
 
-#include "formats/import_failure.h"
-#include "formats/obj/polygon.h"
-#include "formats/obj/text_lines.h"
+#include "formats/file_points.h"
+#include "formats/polygon.h"
 
 namespace tenebra::formats {
 namespace {
 
 constexpr std::uint32_t none = ~0u;
-
-glm::vec3 unit_or_zero(glm::vec3 n) {
-  const float length = glm::length(n);
-  return std::isfinite(length) && length > 0 ? n / length : glm::vec3(0);
-}
 
 /// The vertices of a mesh by position, normal and coordinates: for each position of the file a chain.
 class KnownVertices {
@@ -81,24 +77,12 @@ private:
     const auto corners = std::span(file_.corners).subspan(corner_, file_.faces[face_]);
     corner_ += corners.size();
     ids_.clear();
-    points_.clear();
-    for (const Corner& corner : corners) {
-      ids_.push_back(vertex(corner, mesh));
-      points_.push_back(mesh.positions[ids_.back()]);
-    }
+    for (const Corner& corner : corners) ids_.push_back(vertex(corner, mesh));
     const std::int32_t name = use_ > 0 ? file_.uses[use_ - 1].name : -1;
     const std::uint32_t material = name < 0 ? looks_.grey : looks_.materials[static_cast<std::size_t>(name)];
     used_grey_ |= material == looks_.grey;
-    for (const glm::uvec3& t : triangulate(points_, work_)) {
-      mesh.triangles.emplace_back(ids_[t.x], ids_[t.y], ids_[t.z]);
-      mesh.materials.push_back(material);
-    }
-    constexpr std::uint64_t most_work = 300'000'000;  // corner tests in about half a second
-    if (work_ > most_work)
-      refuse(
-          "face of '{}': found a polygon of {} corners, expected simpler ones: cut it into triangles at "
-          "the export",
-          shown(mesh.name), corners.size());
+    add_polygon(ids_, work_, mesh);
+    mesh.materials.resize(mesh.triangles.size(), material);
   }
 
   std::uint32_t vertex(Corner corner, Mesh& mesh) {
@@ -146,7 +130,6 @@ private:
   std::size_t face_ = 0, corner_ = 0,
               use_ = 0;             ///< next face, its first corner, the use after its material's
   std::vector<std::uint32_t> ids_;  ///< of the face's corners
-  std::vector<glm::vec3> points_;   ///< of the face's corners
   std::uint64_t work_ = 0;
   bool has_normal_ = false, has_coordinates_ = false, has_color_ = false;  ///< the mesh has some
   bool used_grey_ = false;

@@ -1,16 +1,14 @@
 // import_obj: Wavefront OBJ as exporters write it.
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <optional>
 
-#include "base/fail.h"
-#include "formats/import_failure.h"
+#include "formats/file_points.h"
+#include "formats/import_guard.h"
 #include "formats/import_scene.h"
 #include "formats/obj/build.h"
 #include "formats/obj/mtl.h"
-#include "formats/obj/text_lines.h"
 #include "formats/scene_file.h"
+#include "formats/text_lines.h"
 
 namespace tenebra::formats {
 namespace {
@@ -105,15 +103,6 @@ std::vector<std::uint32_t> materials_of_names(const ObjFile& file, const std::ve
   return found;
 }
 
-void warn_of_odd_positions(const ObjFile& file, Scene& scene) {
-  constexpr double most = std::numeric_limits<float>::max();
-  const auto is_odd = [](const glm::dvec3& p) {
-    return !(std::abs(p.x) <= most && std::abs(p.y) <= most && std::abs(p.z) <= most);
-  };
-  if (std::any_of(file.positions.begin(), file.positions.end(), is_odd))
-    scene.warnings.push_back("Found vertices that are not finite; triangles that use them are dropped.");
-}
-
 Scene read_obj(const fs::path& path, const ImportOptions& options) {
   Scene scene;
   scene.name = path.filename().string();
@@ -129,22 +118,14 @@ Scene read_obj(const fs::path& path, const ImportOptions& options) {
   looks.keep_unrounded = options.keep_unrounded;
   looks.textured = !scene.images.empty();
   if (add_meshes(file, looks, scene)) scene.materials.emplace_back();
-  warn_of_odd_positions(file, scene);
+  warn_of_odd_positions(file.positions, scene);
   return scene;
 }
 
 }  // namespace
 
 Expected<Scene> import_obj(const fs::path& path, const ImportOptions& options) {
-  try {
-    return read_obj(path, options);
-  } catch (const ImportFailure& failure) {
-    return base::fail("{}: {}.", path.string(), failure.what());
-  } catch (const std::bad_alloc&) {
-    return base::fail("{}: found more than the memory can hold, expected a smaller scene.", path.string());
-  } catch (const std::exception& error) {
-    return base::fail("{}: found a fault ({}), expected an OBJ file.", path.string(), error.what());
-  }
+  return guarded_import(path, "an OBJ file", [&] { return read_obj(path, options); });
 }
 
 }  // namespace tenebra::formats

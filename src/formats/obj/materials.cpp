@@ -5,7 +5,7 @@
 
 #include "formats/import_failure.h"
 #include "formats/obj/mtl.h"
-#include "formats/obj/text_lines.h"
+#include "formats/text_lines.h"
 
 namespace tenebra::formats {
 namespace {

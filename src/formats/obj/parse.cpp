@@ -6,7 +6,7 @@
 
 #include "formats/import_failure.h"
 #include "formats/obj/obj_file.h"
-#include "formats/obj/text_lines.h"
+#include "formats/text_lines.h"
 
 namespace tenebra::formats {
 namespace {

@@ -4,7 +4,7 @@
 #include "base/lower_case.h"
 #include "formats/import_failure.h"
 #include "formats/obj/mtl.h"
-#include "formats/obj/text_lines.h"
+#include "formats/text_lines.h"
 
 namespace tenebra::formats {
 namespace {

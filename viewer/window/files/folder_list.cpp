@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/fail.h"
+#include "formats/format_list.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -22,9 +23,7 @@ std::string lower(std::string text) {
 }  // namespace
 
 bool is_scene_name(const std::string& name) {
-  constexpr std::array<std::string_view, 5> endings{".gltf", ".glb", ".aff", ".nff", ".obj"};
-  const std::string ending = lower(fs::path(name).extension().string());
-  return std::find(endings.begin(), endings.end(), ending) != endings.end();
+  return formats::format_of(name) != nullptr;
 }
 
 Expected<FolderList> list_folder(const fs::path& folder) {

@@ -22,7 +22,7 @@ struct FolderList {
   bool cut = false;                  ///< there are more
 };
 
-bool is_scene_name(const std::string& name);  ///< .gltf .glb .aff .nff .obj, whatever the case
+bool is_scene_name(const std::string& name);  ///< by its extension, whatever the case
 
 /// Fails with a sentence on what is no folder, or cannot be read.
 Expected<FolderList> list_folder(const std::filesystem::path& folder);

@@ -1,6 +1,9 @@
-#include "formats/obj/polygon.h"
+#include "formats/polygon.h"
 
 #include <cmath>
+
+#include "formats/import_failure.h"
+#include "formats/text_lines.h"
 
 namespace tenebra::formats {
 namespace {
@@ -121,6 +124,20 @@ std::vector<glm::uvec3> triangulate(std::span<const glm::vec3> corners, std::uin
   }
   triangles.emplace_back(first, remains.next(first), remains.previous(first));
   return triangles;
+}
+
+void add_polygon(std::span<const std::uint32_t> corners, std::uint64_t& work, Mesh& mesh) {
+  if (corners.size() == 3) return void(mesh.triangles.emplace_back(corners[0], corners[1], corners[2]));
+  std::vector<glm::vec3> points;
+  for (const std::uint32_t corner : corners) points.push_back(mesh.positions[corner]);
+  for (const glm::uvec3& t : triangulate(points, work))
+    mesh.triangles.emplace_back(corners[t.x], corners[t.y], corners[t.z]);
+  constexpr std::uint64_t most_work = 300'000'000;  // corner tests in about half a second
+  if (work > most_work)
+    refuse(
+        "face of '{}': found a polygon of {} corners, expected simpler ones: cut it into triangles at the "
+        "export",
+        shown_word(mesh.name), corners.size());
 }
 
 }  // namespace tenebra::formats

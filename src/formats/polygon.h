@@ -6,11 +6,17 @@
 #include <span>
 #include <vector>
 
+#include <tenebra/scene.h>
+
 namespace tenebra::formats {
 
 /// Corner triples (indices into `corners`) of the polygon by ear clipping in its mean plane: concave polygons
 /// are not overrun; always corners.size() - 2 of them, turning as the polygon does. Self-crossing polygons
 /// get some triangulation. Adds the number of corner tests to `work`.
 std::vector<glm::uvec3> triangulate(std::span<const glm::vec3> corners, std::uint64_t& work);
+
+/// Adds the triangles of a polygon of three or more of the mesh's vertices. Throws ImportFailure where
+/// `work`, the corner tests of all polygons, would take minutes.
+void add_polygon(std::span<const std::uint32_t> corners, std::uint64_t& work, Mesh& mesh);
 
 }  // namespace tenebra::formats

@@ -1,4 +1,4 @@
-#include "formats/obj/text_lines.h"
+#include "formats/text_lines.h"
 
 #include <algorithm>
 #include <charconv>
