@@ -88,6 +88,8 @@ TEST_F(Ply, BytesOfColoursAreEncodedAndAlphaThatIsZeroEverywhereIsNone) {
   EXPECT_EQ(glm::vec2(color.x, color.y), glm::vec2(1, 0));
   EXPECT_NEAR(color.z, 0.5029f, 1e-4) << "188 of 255, by the curve of sRGB";
   EXPECT_EQ(color.w, 1);
+  EXPECT_EQ(scene.materials.at(0).base_color, glm::vec3(1));
+  EXPECT_EQ(scene.materials[0].alpha_mode, AlphaMode::opaque);
 }
 
 TEST_F(Ply, CornersWithCoordinatesOfTheirOwnGetVertices) {

@@ -68,12 +68,20 @@ private:
   }
 
   void finish() {
+    // With a picture they show the same again, or the grey that MeshLab writes where it has none.
+    if (textured_ && !mesh_.colors.empty()) {
+      scene_.unused.push_back({"vertex colours", mesh_.colors.size()});
+      mesh_.colors.clear();
+    }
+    if (textured_ || !mesh_.colors.empty())
+      for (Material& material : scene_.materials) material.base_color = glm::vec3(1);
     for (glm::vec2& place : mesh_.texture_coordinates[0])
       if (std::isnan(place.x)) place = glm::vec2(0);
     if (left_out_ > 0)
       scene_.warnings.push_back(fmt::format("Left out {} faces of fewer than three corners.", left_out_));
     const auto solid = [](const glm::vec4& color) { return !(color.a > 0 && color.a < 1); };
     // Of alpha that is 0 everywhere the program that wrote it knew nothing.
+    if (mesh_.colors.empty()) return;
     if (std::all_of(mesh_.colors.begin(), mesh_.colors.end(), solid))
       for (glm::vec4& color : mesh_.colors) color.a = 1;
     else

@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstring>
-#include <unordered_map>
 
 #include "formats/import_failure.h"
 #include "formats/polygon.h"
@@ -30,29 +28,50 @@ std::string lower_word(std::string_view word) {
   return text;
 }
 
-/// Vertices of one solid by their place, to the bit.
+/// Vertices of one solid by their place, to the bit: a table of numbers of positions, at most half full.
 class PlaceIndex {
 public:
-  void clear() { known_.clear(); }
-  std::uint32_t find(const glm::dvec3& place, std::vector<glm::dvec3>& positions) {
-    const Key key{place.x + 0.0, place.y + 0.0, place.z + 0.0};  // -0 is 0
-    const auto [found, is_new] =
-        known_.try_emplace(std::bit_cast<Bits>(key), static_cast<std::uint32_t>(positions.size()));
-    if (is_new) positions.push_back(place);
-    return found->second;
+  void clear() { slots_.clear(), used_ = 0; }
+  std::uint32_t find(const glm::dvec3& given, std::vector<glm::dvec3>& positions) {
+    if (2 * used_ >= slots_.size()) grow(positions);
+    const glm::dvec3 place = given + 0.0;  // -0 is 0
+    std::uint32_t& slot = slot_of(place, positions);
+    if (slot != none) return slot;
+    slot = static_cast<std::uint32_t>(positions.size());
+    positions.push_back(place);
+    ++used_;
+    return slot;
   }
 
 private:
-  using Key = std::array<double, 3>;
+  static constexpr std::uint32_t none = ~0u;
   using Bits = std::array<std::uint64_t, 3>;
-  struct Hash {
-    std::size_t operator()(const Bits& bits) const {
-      std::uint64_t sum = 0;
-      for (const std::uint64_t part : bits) sum = (std::rotl(sum, 23) ^ part) * 0x9E3779B97F4A7C15u;
-      return sum ^ sum >> 32;
+  static Bits bits_of(const glm::dvec3& place) {
+    return std::bit_cast<Bits>(std::array{place.x, place.y, place.z});
+  }
+
+  std::uint32_t& slot_of(const glm::dvec3& place, const std::vector<glm::dvec3>& positions) {
+    const Bits bits = bits_of(place);
+    std::uint64_t hash = 0;
+    for (const std::uint64_t part : bits) hash = (std::rotl(hash, 23) ^ part) * 0x9E3779B97F4A7C15u;
+    std::size_t at = hash >> 20;  // the upper bits are the mixed ones
+    while (true) {
+      at &= slots_.size() - 1;
+      if (slots_[at] == none || bits_of(positions[slots_[at]]) == bits) return slots_[at];
+      ++at;
     }
-  };
-  std::unordered_map<Bits, std::uint32_t, Hash> known_;
+  }
+
+  void grow(const std::vector<glm::dvec3>& positions) {
+    constexpr std::size_t least = 64;
+    std::vector<std::uint32_t> old(std::max(least, 2 * slots_.size()), none);
+    std::swap(old, slots_);
+    for (const std::uint32_t number : old)
+      if (number != none) slot_of(positions[number], positions) = number;
+  }
+
+  std::vector<std::uint32_t> slots_;  ///< a power of two
+  std::size_t used_ = 0;
 };
 
 class StlParser {
