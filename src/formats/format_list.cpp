@@ -1,5 +1,6 @@
 #include "formats/format_list.h"
 
+#include "base/lower_case.h"
 #include "formats/place_scene.h"
 
 namespace tenebra::formats {
@@ -33,13 +34,6 @@ constexpr FileFormat formats[] = {
      read_aff_placed},
 };
 
-std::string lower_extension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return extension;
-}
-
 /// Whether `extension` is one of `list`, which has a blank between two.
 bool lists(std::string_view list, std::string_view extension) {
   while (!list.empty()) {
@@ -72,7 +66,7 @@ std::span<const FileFormat> file_formats() {
 }
 
 const FileFormat* format_of(const std::filesystem::path& file) {
-  const std::string extension = lower_extension(file);
+  const std::string extension = base::extension_of(file);
   for (const FileFormat& format : formats)
     if (lists(format.extensions, extension)) return &format;
   return nullptr;
@@ -85,7 +79,7 @@ std::string known_extensions() {
 }
 
 std::string_view way_to_gltf(const std::filesystem::path& file) {
-  const std::string extension = lower_extension(file);
+  const std::string extension = base::extension_of(file);
   for (const Way& known : ways)
     if (lists(known.extensions, extension)) return known.way;
   return "export it as glTF (in Blender: File > Export > glTF 2.0)";

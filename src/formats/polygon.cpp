@@ -137,7 +137,7 @@ void add_polygon(std::span<const std::uint32_t> corners, std::uint64_t& work, Me
     refuse(
         "face of '{}': found a polygon of {} corners, expected simpler ones: cut it into triangles at the "
         "export",
-        shown_word(mesh.name), corners.size());
+        shown(mesh.name), corners.size());
 }
 
 }  // namespace tenebra::formats

@@ -23,7 +23,7 @@ public:
 
   void read(const Element& element) {
     if (mesh_.positions.empty())
-      refuse("element '{}': found it before any vertices, expected these first", shown_word(element.name));
+      refuse("element '{}': found it before any vertices, expected these first", shown(element.name));
     const FaceProperties of = face_properties(element);
     const bool strips = element.name == "tristrips";
     if (!strips) mesh_.triangles.reserve(element.count);
@@ -70,10 +70,10 @@ private:
       else if (!property.count_type && property.name == "texnumber")
         found.picture = index;
       else
-        unused_.push_back({"face " + shown_word(property.name), element.count});
+        unused_.push_back({"face " + shown(property.name), element.count});
     }
     if (found.corners < 0)
-      refuse("element '{}': found no list vertex_indices, expected one", shown_word(element.name));
+      refuse("element '{}': found no list vertex_indices, expected one", shown(element.name));
     return found;
   }
 

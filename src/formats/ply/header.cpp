@@ -79,7 +79,7 @@ private:
       header_.encoding = Encoding::big_endian;
     else
       refuse("line {}: found format '{}', expected ascii, binary_little_endian or binary_big_endian", line_,
-             shown_word(word));
+             shown(word));
     encoded_ = true;
   }
 
@@ -89,8 +89,8 @@ private:
     const std::string_view count = take_word(rest_);
     const char* const end = count.data() + count.size();
     if (std::from_chars(count.data(), end, element.count).ptr != end || count.empty())
-      refuse("line {}: found '{}' as a count of '{}', expected a whole number", line_, shown_word(count),
-             shown_word(element.name));
+      refuse("line {}: found '{}' as a count of '{}', expected a whole number", line_, shown(count),
+             shown(element.name));
     header_.elements.push_back(std::move(element));
   }
 
@@ -110,8 +110,7 @@ private:
   Type type_of(std::string_view word) const {
     for (const TypeName& known : type_names)
       if (word == known.name) return known.type;
-    refuse("line {}: found type '{}', expected one such as uchar, int, float or double", line_,
-           shown_word(word));
+    refuse("line {}: found type '{}', expected one such as uchar, int, float or double", line_, shown(word));
   }
 
   std::string_view file_, rest_, end_;

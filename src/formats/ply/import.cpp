@@ -54,7 +54,7 @@ private:
           ply::read_faces(element, textured_, scene_.materials.size(), values_, mesh_, scene_.unused);
       return;
     }
-    if (!faces && element.count > 0) scene_.unused.push_back({shown_word(element.name), element.count});
+    if (!faces && element.count > 0) scene_.unused.push_back({shown(element.name), element.count});
     values_.skip(element);
   }
 

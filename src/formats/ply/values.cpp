@@ -32,7 +32,7 @@ void Values::check_count(const Element& element) const {
         "element '{}': found a count of {}, expected at most the {} that the file's bytes can hold: the file "
         "is "
         "cut off, copy it again",
-        shown_word(element.name), element.count, most);
+        shown(element.name), element.count, most);
 }
 
 double Values::take(Type type) {
@@ -46,7 +46,7 @@ void Values::refuse_text() const {
     refuse("values: found the end of the file, expected more: copy it again");
   const std::string_view word = rest.substr(0, std::min<std::size_t>(rest.find_first_of(" \t\r\n"), 40));
   refuse("line {}: found '{}', expected a number", 1 + std::count(before.begin(), before.end(), '\n'),
-         shown_word(word));
+         shown(word));
 }
 
 double Values::take_text() {
@@ -85,10 +85,10 @@ std::size_t Values::take_count(const Property& list) {
   const double count = take(*list.count_type);
   const std::size_t least = encoding_ == Encoding::ascii ? 2 : size_of(list.type);
   if (!(count >= 0) || count != std::floor(count))
-    refuse("list '{}': found a length of {}, expected a whole number", shown_word(list.name), count);
+    refuse("list '{}': found a length of {}, expected a whole number", shown(list.name), count);
   if (const std::size_t most = (rest_.size() + 1) / least; count > static_cast<double>(most))
     refuse("list '{}': found a length of {}, expected at most {}: the file is cut off, copy it again",
-           shown_word(list.name), count, most);
+           shown(list.name), count, most);
   return static_cast<std::size_t>(count);
 }
 

@@ -105,7 +105,7 @@ std::vector<glm::dvec3> read_vertices(const Element& element, bool textured, Val
   }
   for (std::size_t p = 0; p < slots_in.size(); ++p)
     if (slots_in[p] == slots)
-      unused.push_back({"vertex " + shown_word(element.properties[p].name), element.count});
+      unused.push_back({"vertex " + shown(element.properties[p].name), element.count});
   return points;
 }
 

@@ -19,7 +19,7 @@ void add_solid(const StlFile& file, std::size_t s, const ImportOptions& options,
                     end_triangle = last ? file.triangles.size() : file.solids[s + 1].first_triangle;
   if (end_triangle == solid.first_triangle) return;
   Mesh mesh;
-  mesh.name = shown_word(solid.name);
+  mesh.name = shown(solid.name);
   mesh.source = fmt::format("{}:{}", scene.name, mesh.name);
   add_positions(std::span(file.positions).subspan(solid.first_position, end_position - solid.first_position),
                 scene.frame, options.keep_unrounded, mesh);

@@ -150,7 +150,7 @@ private:
       begin_solid({});
     } else if (word != "color") {
       refuse("line {}: found '{}', expected facet, outer loop, vertex, endloop, endfacet or endsolid",
-             at_.line, shown_word(at_.word));
+             at_.line, shown(at_.word));
     }
   }
 
@@ -160,7 +160,7 @@ private:
       const std::string_view before = at_.rest;
       if (take_number(at_.rest, place[axis]) != NumberFault::none)
         refuse("line {}: found '{}', expected the numbers x, y and z, with a decimal point", at_.line,
-               shown_word(before));
+               shown(before));
     }
     corners_.push_back(place);
   }
