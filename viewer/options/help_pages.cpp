@@ -17,6 +17,8 @@ using settings::About;
 using settings::Group;
 
 constexpr std::size_t column = 34;
+/// With fewer groups all help of a command is one page.
+constexpr std::size_t fewest_topics = 4;
 
 struct Topic {
   std::string_view word;
@@ -33,14 +35,26 @@ constexpr std::array<std::string_view, 10> first_asked{"output",     "size",    
                                                        "light-size", "ao",         "quality", "exposure",
                                                        "camera",     "environment"};
 
-/// Lists the options of one group alone, or of all.
+bool has_page(std::string_view group) {
+  return std::ranges::any_of(topics,
+                             [&](const Topic& topic) { return settings::group_title(topic.group) == group; });
+}
+
+enum class Page { first, group, everything };
+
+/// Lists all options, those of one group, or those whose group has no page of its own.
 class HelpFormat : public CLI::Formatter {
 public:
-  explicit HelpFormat(std::string_view only = "") : only_(only) { column_width(column); }
+  explicit HelpFormat(Page page = Page::everything, std::string_view group = "")
+      : page_(page), group_(group) {
+    column_width(column);
+  }
 
   std::string make_group(std::string group, bool is_positional,
                          std::vector<const CLI::Option*> options) const override {
-    if (!is_positional && !only_.empty() && group != only_) return "";
+    if (!is_positional &&
+        ((page_ == Page::first && has_page(group)) || (page_ == Page::group && group != group_)))
+      return "";
     if (group == settings::group_title(Group::first))
       std::stable_sort(options.begin(), options.end(),
                        [](const CLI::Option* a, const CLI::Option* b) { return place(*a) < place(*b); });
@@ -52,7 +66,8 @@ private:
     return std::find(first_asked.begin(), first_asked.end(), setting_of(option)) - first_asked.begin();
   }
 
-  std::string only_;
+  Page page_;
+  std::string group_;
 };
 
 /// Topics whose groups `command` has.
@@ -110,13 +125,14 @@ std::string help_page(CLI::App& program, const std::string& topic) {
   if (program.get_subcommands().empty()) return program.help();
   CLI::App& command = *program.get_subcommands().back();
   const std::vector<std::string_view> others = topics_of(command);
-  if (others.empty()) return program.help();
+  if (others.size() < fewest_topics) return program.help();
   if (topic == everything) return program.help() + "\n" + help_of_paper(command);
   if (topic == paper) return help_of_paper(command);
   const auto chosen = std::ranges::find_if(topics, [&](const Topic& other) { return other.word == topic; });
   const bool is_first = chosen == topics.end();
-  command.formatter(
-      std::make_shared<HelpFormat>(settings::group_title(is_first ? Group::first : chosen->group)));
+  command.formatter(is_first
+                        ? std::make_shared<HelpFormat>(Page::first)
+                        : std::make_shared<HelpFormat>(Page::group, settings::group_title(chosen->group)));
   command.footer(is_first ? first_footer(command, others) : "");
   std::string page = program.help();
   for (std::size_t at; (at = page.find("\n\n\n")) != std::string::npos;)

@@ -20,9 +20,9 @@ std::shared_ptr<CLI::Formatter> help_format();
 std::string help_topic(std::span<const std::string> arguments);
 
 /// The help of the command that `program` was given; of `program` where it was given none. Where the command
-/// has groups of settings: what is used most, with the topics of the other pages; of a topic the options of
-/// its group; "paper": the settings for the papers' experiments; "all": everything. Changes how that command
-/// formats its help.
+/// has many groups of settings: what is used most, with the topics of the other pages; of a topic the options
+/// of its group; "paper": the settings for the papers' experiments; "all": everything. Changes how that
+/// command formats its help.
 std::string help_page(CLI::App& program, const std::string& topic);
 
 }  // namespace tenebra::viewer
