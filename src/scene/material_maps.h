@@ -7,10 +7,12 @@
 
 namespace tenebra::scene {
 
-inline std::array<const TextureMap*, 9> texture_maps(const Material& m) {
-  return {&m.base_color_map,   &m.emissive_map,       &m.metallic_roughness_map,
-          &m.specular_map,     &m.specular_share_map, &m.exponent_map,
-          &m.transmission_map, &m.normal_map,         &m.occlusion_map};
+/// Of a material that may be changed, pointers that may change it.
+template <class OfMaterial>
+auto texture_maps(OfMaterial& m) {
+  return std::array{&m.base_color_map,   &m.emissive_map,       &m.metallic_roughness_map,
+                    &m.specular_map,     &m.specular_share_map, &m.exponent_map,
+                    &m.transmission_map, &m.normal_map,         &m.occlusion_map};
 }
 
 }  // namespace tenebra::scene
