@@ -44,12 +44,12 @@ MAY_INCLUDE = {
 ROOMS = {
     "io": ["", "exr"],
     "stage": ["cutout", "edits", ""],
-    "formats": ["", "gltf_check", "images", "obj", "ply", "stl", "aff", "gltf", "glb"],
+    "formats": ["", "gltf_check", "images", "obj", "ply", "stl", "aff", "gltf", "glb", "assimp"],
     "shadow": ["decision", "rays", "cone_tree", "tiles", ""],
     "soft": ["memory", "light", "polygon", "groups", "shafts", "occluders", "clip", "silhouette", "bsp", "solve", "sample", ""],
     "ao": ["objects", "cast", "cache", "receivers", "casters", "adaptive", "reference", "field", "surface", "presampled", ""],
 }
-FORMATS = ("obj", "ply", "stl", "aff", "gltf", "glb")  # its readers and the writer
+FORMATS = ("obj", "ply", "stl", "aff", "gltf", "glb", "assimp")  # its readers and the writer
 APART = {("edits", "cutout"), ("tiles", "cone_tree"), ("silhouette", "clip"), ("bsp", "clip"), ("bsp", "silhouette"),
          ("reference", "adaptive"), ("field", "adaptive"), ("surface", "adaptive"), ("presampled", "adaptive"),
          ("field", "reference"), ("surface", "reference"), ("presampled", "reference"),
@@ -64,6 +64,7 @@ CONTAINED = [
     (r"tiny_gltf|tinygltf::", "tinygltf", {"formats/gltf"}),
     (r"\bmeshopt_|meshoptimizer\.h", "meshoptimizer", {"formats/gltf/meshopt.cpp"}),
     (r"\bdraco::|<draco/", "Draco", {"formats/gltf/draco_decoder.cpp"}),
+    (r"\bAssimp::|assimp/scene", "Assimp", set()),  # in converter alone
     (r"\bstbi_|stb/stb_image", "stb_image", {"io/image.cpp"}),
     (r"\bImf\b|\bImath\b|Imf\w*\.h|Imath\w*\.h", "OpenEXR", {"io/exr/exr_file.cpp"}),
     (r"libdeflate", "libdeflate", {"io/png_writer.cpp", "io/png_structure.cpp"}),

@@ -3,7 +3,7 @@
 # Usage: tools/setup.sh [--window | --tests | --package]
 #   without an option   what is needed to build, and to draw without a display: all that ./demo.sh needs
 #   --window            also the font of `tenebra view`
-#   --tests             also what the tests need; with it, Embree for --ao rays and compressed glTF files
+#   --tests             also what the tests need; with it, Embree for --ao rays, compressed glTF files, FBX and others
 #   --package           also what is needed to make packages
 set -euo pipefail
 
@@ -19,14 +19,15 @@ where_known=()  # taken where this release has them
 [[ "${1:-}" == --window || "${1:-}" == --tests ]] && packages+=(libgl1 libglx-mesa0 fonts-dejavu-core)
 if [[ "${1:-}" == --tests ]]; then
   packages+=(libgtest-dev libembree-dev
-    libmeshoptimizer-dev libdraco-dev
+    libmeshoptimizer-dev libdraco-dev libassimp-dev
     python3-dev python3-numpy python3-pybind11 python3-pytest python3-matplotlib
     xvfb xauth xdotool imagemagick x11-xserver-utils)
   # Mesa 25.1 and later have no OSMesa: EGL is enough. libwebp: pictures in WebP.
   # scikit-build: `pip install .`.
   where_known+=(libosmesa6 clang-format-14 libwebp-dev python3-skbuild)
 fi
-[[ "${1:-}" == --package ]] && packages+=(libembree-dev libmeshoptimizer-dev libdraco-dev dpkg-dev help2man lintian
+[[ "${1:-}" == --package ]] && packages+=(libembree-dev libmeshoptimizer-dev libdraco-dev libassimp-dev dpkg-dev help2man
+  lintian
   python3-dev python3-pybind11)
 
 if ! command -v dpkg-query apt-get > /dev/null; then

@@ -1,6 +1,7 @@
 #include "formats/format_list.h"
 
 #include "base/lower_case.h"
+#include "formats/converted.h"
 #include "formats/place_scene.h"
 
 namespace tenebra::formats {
@@ -21,6 +22,13 @@ Expected<Scene> read_aff_placed(const std::filesystem::path& path, const ImportO
   return placed(import_aff(path, options), placement);
 }
 
+Expected<Scene> read_converted(const std::filesystem::path& path, const ImportOptions& options) {
+  return placed(import_converted(path, options, find_converter()), options.placement);
+}
+
+constexpr std::string_view all_by_assimp = "meshes, materials, pictures, lights, cameras, animations, skins";
+constexpr std::string_view looks_by_assimp = "meshes, materials, pictures, animations, skins";
+
 constexpr FileFormat formats[] = {
     {".gltf .glb", "glTF 2.0", "own",
      "meshes, nodes, materials, pictures, lights, cameras, animations, skins, morph targets", true,
@@ -32,6 +40,20 @@ constexpr FileFormat formats[] = {
     {".stl", "STL", "own", "meshes in double where the file is text", false, import_stl},
     {".aff .nff", "BART's AFF, NFF", "own", "meshes, materials, pictures, lights, cameras, animations", false,
      read_aff_placed},
+    {".fbx", "Autodesk FBX", "Assimp", all_by_assimp, true, read_converted},
+    {".dae .zae", "COLLADA", "Assimp", all_by_assimp, true, read_converted},
+    {".3mf .amf", "3MF, AMF (printing)", "Assimp", "meshes, colours", false, read_converted},
+    {".3ds .ase .ask", "3D Studio", "Assimp", all_by_assimp, false, read_converted},
+    {".lwo .lws .lxo", "LightWave, Modo", "Assimp", all_by_assimp, false, read_converted},
+    {".x .x3d", "DirectX X, X3D", "Assimp", looks_by_assimp, false, read_converted},
+    {".dxf", "AutoCAD DXF", "Assimp", "faces and polylines; no solids", false, read_converted},
+    {".ac .cob .ms3d", "AC3D, trueSpace, MilkShape", "Assimp", looks_by_assimp, false, read_converted},
+    {".off .ogex .ter", "OFF, OpenGEX, Terragen", "Assimp", looks_by_assimp, false, read_converted},
+    {".b3d .q3o .q3s", "Blitz3D, Quick3D", "Assimp", looks_by_assimp, false, read_converted},
+    {".xgl .zgl", "XGL", "Assimp", looks_by_assimp, false, read_converted},
+    {".md2 .md3 .md5mesh", "Quake 2 and 3, Doom 3", "Assimp", looks_by_assimp, false, read_converted},
+    {".mdl .hmp .smd", "Quake, 3DGS, Valve", "Assimp", looks_by_assimp, false, read_converted},
+    {".iqm .pmx", "IQM, MikuMikuDance", "Assimp", looks_by_assimp, false, read_converted},
 };
 
 /// Whether `extension` is one of `list`, which has a blank between two.
@@ -48,11 +70,13 @@ struct Way {
   std::string_view extensions, way;
 };
 constexpr Way ways[] = {
-    {".blend", "in Blender: File > Export > glTF 2.0"},
-    {".step .stp .iges .igs .brep .fcstd", "in FreeCAD: File > Export > glTF 2.0"},
-    {".ifc", "in Blender with the add-on Bonsai: File > Open IFC, then File > Export > glTF 2.0"},
+    {".blend",
+     "open it in Blender, whose own reader alone knows what it says, and there: File > Export > glTF 2.0"},
+    {".step .stp .iges .igs .brep .fcstd",
+     "it holds exact surfaces, not triangles; in FreeCAD: File > Open, then File > Export > glTF 2.0"},
+    {".ifc .ifczip", "in Blender with the add-on Bonsai: File > Open IFC, then File > Export > glTF 2.0"},
     {".skp", "in SketchUp: File > Export > 3D Model, as glTF or OBJ"},
-    {".dwg .dxf .rvt .rfa",
+    {".dwg .rvt .rfa",
      "in the program that it comes from export it as FBX or OBJ, then in Blender: File > Export > glTF 2.0"},
     {".max .ma .mb .c4d .3dm .hip", "in the program that it comes from: export it as glTF, FBX or OBJ"},
     {".usd .usda .usdc .usdz .abc .gml .las .laz .e57",
@@ -70,12 +94,6 @@ const FileFormat* format_of(const std::filesystem::path& file) {
   for (const FileFormat& format : formats)
     if (lists(format.extensions, extension)) return &format;
   return nullptr;
-}
-
-std::string known_extensions() {
-  std::string all;
-  for (const FileFormat& format : formats) all.append(all.empty() ? "" : " ").append(format.extensions);
-  return all;
 }
 
 std::string_view way_to_gltf(const std::filesystem::path& file) {

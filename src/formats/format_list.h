@@ -24,9 +24,6 @@ std::span<const FileFormat> file_formats();
 /// By the extension of `file`, whatever its case; null: not read.
 const FileFormat* format_of(const std::filesystem::path& file);
 
-/// All extensions, a blank between two.
-std::string known_extensions();
-
 /// How a file with an extension that is not read becomes one that is: "in Blender: File > Export > glTF 2.0".
 std::string_view way_to_gltf(const std::filesystem::path& file);
 

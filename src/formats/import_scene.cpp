@@ -42,8 +42,10 @@ std::string other_content(const fs::path& path) {
   if (stream.bad()) return {};  // the reader has the reason
   const std::string_view bytes(first.data(), static_cast<std::size_t>(stream.gcount()));
   if (bytes.empty()) return "found an empty file, expected a scene: copy it again";
+  const FileFormat* const format = format_of(path);
+  const bool may_be_zip = format != nullptr && format->reader == "Assimp";  // as 3MF is
   for (const std::string_view archive : {"PK\x03\x04", "Rar!", "7z\xBC\xAF", "\x1F\x8B"})
-    if (bytes.starts_with(archive))
+    if (bytes.starts_with(archive) && !(may_be_zip && bytes.starts_with("PK")))
       return "found an archive, expected a scene: unpack it and open the scene in it";
   if (bytes.starts_with("version https://git-lfs"))
     return "found a note of Git LFS in place of the file, expected a scene: fetch it by 'git lfs pull'";
@@ -80,9 +82,8 @@ Expected<Scene> read_scene(const fs::path& path, const ImportOptions& options) {
     return base::fail("{}: {}.", path.string(), other);
   const FileFormat* const format = format_of(path);
   if (format == nullptr)
-    return base::fail(
-        "{}: found the extension '{}', expected one of {} ('tenebra info --formats' lists what is read): {}.",
-        path.string(), path.extension().string(), known_extensions(), way_to_gltf(path));
+    return base::fail("{}: found the extension '{}', expected one that 'tenebra info --formats' lists: {}.",
+                      path.string(), path.extension().string(), way_to_gltf(path));
   if (!options.scene.empty() && format->read != format_of("a.glb")->read)
     return base::fail("{}: found no scenes to choose from, expected a glTF file for scene '{}'.",
                       path.string(), options.scene);

@@ -37,7 +37,7 @@ std::string undo_percent(std::string_view uri, std::string_view place) {
   return text;
 }
 
-std::string read_scene_file(const fs::path& path, std::vector<fs::path>* files_read) {
+std::uintmax_t scene_file_size(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) refuse("found no such file, expected a readable file");
@@ -45,6 +45,11 @@ std::string read_scene_file(const fs::path& path, std::vector<fs::path>* files_r
   const std::uintmax_t size = fs::file_size(path, error);
   if (error) refuse("cannot tell its size ({}), expected a readable file", error.message());
   if (size > max_scene_file_bytes) refuse("found {} bytes, expected at most {}", size, max_scene_file_bytes);
+  return size;
+}
+
+std::string read_scene_file(const fs::path& path, std::vector<fs::path>* files_read) {
+  const std::uintmax_t size = scene_file_size(path);
   std::string bytes(size, '\0');
   errno = 0;
   std::ifstream stream(path, std::ios::binary);

@@ -11,8 +11,11 @@ namespace tenebra::formats {
 /// Largest scene file or buffer that is read.
 inline constexpr std::uintmax_t max_scene_file_bytes = std::uintmax_t{1} << 31;
 
-/// The bytes of a regular file, whose path `files_read` gets if there is one. Throws ImportFailure: missing,
-/// not a file, too large, unreadable.
+/// Of a regular file. Throws ImportFailure: missing, not a file, too large.
+std::uintmax_t scene_file_size(const std::filesystem::path& path);
+
+/// The bytes of a regular file, whose path `files_read` gets if there is one. Throws ImportFailure as
+/// scene_file_size does, and where it is unreadable.
 std::string read_scene_file(const std::filesystem::path& path,
                             std::vector<std::filesystem::path>* files_read);
 

@@ -312,7 +312,7 @@ int print_formats(bool as_json) {
   if (as_json) print_out("{}\n", list.dump(2));
   if (!as_json)
     for (const formats::FileFormat& format : formats::file_formats())
-      print_out("{:<13}{:<20}{:<8}{}\n", format.extensions, format.name, format.reader, format.kept);
+      print_out("{:<20}{:<28}{:<8}{}\n", format.extensions, format.name, format.reader, format.kept);
   return 0;
 }
 

@@ -1,4 +1,5 @@
 // import_gltf: the stages in their order; the only place that knows them all.
+#include "formats/converted.h"
 #include "formats/gltf/model.h"
 #include "formats/import_guard.h"
 #include "formats/import_scene.h"
@@ -7,8 +8,7 @@
 namespace tenebra::formats {
 namespace {
 
-Scene read_gltf(const std::filesystem::path& path, const ImportOptions& options) {
-  const std::string bytes = read_scene_file(path, options.files_read);
+Scene read_gltf(const std::filesystem::path& path, const std::string& bytes, const ImportOptions& options) {
   gltf::Asset asset;
   asset.root = options.root;
   asset.files_read = options.files_read;
@@ -32,7 +32,13 @@ Scene read_gltf(const std::filesystem::path& path, const ImportOptions& options)
 }  // namespace
 
 Expected<Scene> import_gltf(const std::filesystem::path& path, const ImportOptions& options) {
-  return guarded_import(path, "a glTF file", [&] { return read_gltf(path, options); });
+  return guarded_import(path, "a glTF file",
+                        [&] { return read_gltf(path, read_scene_file(path, options.files_read), options); });
+}
+
+Expected<Scene> import_gltf_bytes(const std::filesystem::path& path, const std::string& bytes,
+                                  const ImportOptions& options) {
+  return guarded_import(path, "glTF", [&] { return read_gltf(path, bytes, options); });
 }
 
 }  // namespace tenebra::formats

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "viewer/viewer_test_scene.h"
@@ -38,6 +39,17 @@ void expect_moving_scene(const json& info) {
 TEST(InfoCommand, TellsWhatTheSceneHolds) {
   const TemporaryFolder folder;
   expect_moving_scene(info_of(write_moving_scene(folder, 2)));
+}
+
+TEST(InfoCommand, ListsTheFormatsAndTheirReaders) {
+  const auto text = tenebra({"info", "--formats"});
+  EXPECT_EQ(text.exit_code, 0) << text.errors;
+  EXPECT_NE(text.output.find(".gltf .glb"), std::string::npos) << text.output;
+  const auto listed = tenebra({"info", "--formats", "--json"});
+  std::map<std::string, std::string> reader;
+  for (const json& format : json::parse(listed.output)) reader[format["extensions"]] = format["reader"];
+  EXPECT_EQ(reader[".ply"], "own");
+  EXPECT_EQ(reader[".fbx"], "Assimp");
 }
 
 TEST(InfoCommand, TellsTheSameAsText) {

@@ -1,0 +1,100 @@
+#include <assimp/material.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "gltf_writer.h"
+
+namespace tenebra::converter {
+namespace {
+
+float number_of(const aiMaterial& source, const char* key, unsigned type, unsigned index, float otherwise) {
+  float value = otherwise;
+  source.Get(key, type, index, value);
+  return std::isfinite(value) ? value : otherwise;
+}
+
+Json color_of(const aiMaterial& source, const char* key, unsigned type, unsigned index, float otherwise) {
+  aiColor3D color(otherwise, otherwise, otherwise);
+  source.Get(key, type, index, color);
+  Json written = Json::array();
+  for (const float part : {color.r, color.g, color.b})
+    written.push_back(std::isfinite(part) ? std::clamp(part, 0.0f, 1.0f) : otherwise);
+  return written;
+}
+
+float opacity_of(const aiMaterial& source) {
+  return std::clamp(number_of(source, AI_MATKEY_OPACITY, 1), 0.0f, 1.0f);
+}
+
+}  // namespace
+
+/// The index of the texture of the picture `name`, which may be in the file.
+std::size_t GltfWriter::image(const std::string& name) {
+  const auto [known, is_new] = image_index_.try_emplace(name, 0);
+  if (!is_new) return known->second;
+  const aiTexture* const embedded = scene_.GetEmbeddedTexture(name.c_str());
+  Json image{{"name", name}};
+  if (embedded != nullptr && embedded->mHeight == 0) {
+    const std::string_view bytes(reinterpret_cast<const char*>(embedded->pcData), embedded->mWidth);
+    image["bufferView"] = glb_.add_view(bytes.data(), bytes.size());
+    image["mimeType"] = bytes.starts_with("\xFF\xD8") ? "image/jpeg" : "image/png";
+  } else {
+    image["uri"] = picture_uri(folder_, name);
+  }
+  return known->second = glb_.add("textures", {{"source", glb_.add("images", std::move(image))}});
+}
+
+/// Null where there is none.
+Json GltfWriter::texture(const aiMaterial& source, aiTextureType type) {
+  aiString name;
+  unsigned set = 0;
+  if (source.GetTexture(type, 0, &name, nullptr, &set) != aiReturn_SUCCESS || name.length == 0)
+    return nullptr;
+  const aiTexture* const embedded = scene_.GetEmbeddedTexture(name.C_Str());
+  if (embedded != nullptr && embedded->mHeight != 0) {
+    left_out_.push_back("A picture in the file, stored without a format, is left out.");
+    return nullptr;
+  }
+  return {{"index", image(name.C_Str())}, {"texCoord", std::min(set, 1u)}};
+}
+
+Json GltfWriter::material(const aiMaterial& source, bool all_clear) {
+  Json pbr{{"metallicFactor", number_of(source, AI_MATKEY_METALLIC_FACTOR, 0)},
+           {"roughnessFactor", std::clamp(number_of(source, AI_MATKEY_ROUGHNESS_FACTOR, 1), 0.0f, 1.0f)}};
+  Json written{{"name", source.GetName().C_Str()}};
+  const float opacity = all_clear ? 1 : opacity_of(source);
+  Json picture = texture(source, aiTextureType_BASE_COLOR);
+  if (picture.is_null()) picture = texture(source, aiTextureType_DIFFUSE);
+  pbr["baseColorFactor"] = color_of(source, AI_MATKEY_COLOR_DIFFUSE, picture.is_null() ? 0.6f : 1.0f);
+  pbr["baseColorFactor"].push_back(opacity);
+  aiString clear;
+  const bool cut = source.GetTexture(aiTextureType_OPACITY, 0, &clear) == aiReturn_SUCCESS;
+  if (!picture.is_null()) pbr["baseColorTexture"] = std::move(picture);
+  if (cut || opacity < 1) written["alphaMode"] = opacity < 1 ? "BLEND" : "MASK";
+  if (Json normals = texture(source, aiTextureType_NORMALS); !normals.is_null())
+    written["normalTexture"] = std::move(normals);
+  const Json emission = color_of(source, AI_MATKEY_COLOR_EMISSIVE, 0);
+  if (Json shines = texture(source, aiTextureType_EMISSIVE); !shines.is_null()) {
+    written["emissiveTexture"] = std::move(shines);
+    written["emissiveFactor"] = emission == Json{0.0f, 0.0f, 0.0f} ? Json{1.0f, 1.0f, 1.0f} : emission;
+  } else {
+    written["emissiveFactor"] = emission;
+  }
+  written["pbrMetallicRoughness"] = std::move(pbr);
+  return written;
+}
+
+void GltfWriter::add_materials() {
+  const auto all = [&](auto&& holds) {
+    return std::all_of(scene_.mMaterials, scene_.mMaterials + scene_.mNumMaterials, holds);
+  };
+  // Some programs write opacity the other way round.
+  const bool all_clear =
+      scene_.mNumMaterials > 0 && all([](const aiMaterial* m) { return opacity_of(*m) == 0; });
+  if (all_clear) left_out_.push_back("All materials have opacity 0, which is taken for opaque.");
+  for (unsigned i = 0; i < scene_.mNumMaterials; ++i)
+    glb_.add("materials", material(*scene_.mMaterials[i], all_clear));
+}
+
+}  // namespace tenebra::converter
