@@ -12,7 +12,7 @@
 
 namespace tenebra::converter {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;  // whose members stay in place when others are added
 
 /// The tables and the bytes of a glTF file.
 class Glb {

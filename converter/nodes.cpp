@@ -19,10 +19,12 @@ Json list(aiQuaternion q) {
   return {q.x, q.y, q.z, q.w};
 }
 
+/// With a last element of 1, from which products of matrices stray.
 Json matrix_of(const aiMatrix4x4& matrix) {
+  const float last = std::isfinite(1 / matrix.d4) ? matrix.d4 : 1;
   Json columns = Json::array();
   for (unsigned column = 0; column < 4; ++column)
-    for (unsigned row = 0; row < 4; ++row) columns.push_back(matrix[row][column]);
+    for (unsigned row = 0; row < 4; ++row) columns.push_back(matrix[row][column] / last);
   return columns;
 }
 

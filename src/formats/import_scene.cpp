@@ -44,8 +44,9 @@ std::string other_content(const fs::path& path) {
   if (bytes.empty()) return "found an empty file, expected a scene: copy it again";
   const FileFormat* const format = format_of(path);
   const bool may_be_zip = format != nullptr && format->reader == "Assimp";  // as 3MF is
+  const bool is_blend = path.extension() == ".blend";                       // which Blender may compress
   for (const std::string_view archive : {"PK\x03\x04", "Rar!", "7z\xBC\xAF", "\x1F\x8B"})
-    if (bytes.starts_with(archive) && !(may_be_zip && bytes.starts_with("PK")))
+    if (bytes.starts_with(archive) && !is_blend && !(may_be_zip && bytes.starts_with("PK")))
       return "found an archive, expected a scene: unpack it and open the scene in it";
   if (bytes.starts_with("version https://git-lfs"))
     return "found a note of Git LFS in place of the file, expected a scene: fetch it by 'git lfs pull'";

@@ -49,7 +49,7 @@ void check_end(const ChildResult& result, const ChildLimits& limits, std::string
     refuse("the converter (Assimp) ran out of the memory that it may use, expected a smaller scene: {}", way);
   std::string_view errors = result.errors;
   if (result.number != 0)
-    refuse("Assimp found a fault ({}), expected a whole file: copy it again, or {}",
+    refuse("Assimp found a fault ({}), expected a whole scene with triangles: copy it again, or {}",
            quoted(take_line(errors)), way);
   if (!result.output.starts_with("glTF"))
     refuse("the converter (Assimp) wrote something else than glTF, expected a scene: {}", way);
