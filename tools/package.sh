@@ -48,7 +48,7 @@ manual() {  # manual COMMAND...: of `tenebra COMMAND...`
     gzip -9n > "$share/man/man1/$page.1.gz"
 }
 manual
-for command in view render info convert bake compare log verify trade; do manual "$command"; done
+for command in view render info convert bake sun compare log verify trade; do manual "$command"; done
 for part in merge summary report; do manual log "$part"; done
 packaging/completions.py "$build/bin/tenebra" "$share"
 

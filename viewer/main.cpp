@@ -27,7 +27,7 @@ using tenebra::viewer::Run;
 constexpr int failure = tenebra::viewer::exit_codes::failed;
 constexpr int comparison_failure = tenebra::viewer::exit_codes::comparison_failed;
 
-constexpr const char* commands = "view, render, info, convert, bake, compare, log, verify or trade";
+constexpr const char* commands = "view, render, info, convert, bake, sun, compare, log, verify or trade";
 constexpr const char* about =
     "tenebra: exact, alias-free shadows for animated scenes on the CPU, with or without OpenGL\n";
 constexpr const char* first_steps =
@@ -141,6 +141,7 @@ int main(int argc, char** argv) {
     tenebra::viewer::add_info_command(program, run);
     tenebra::viewer::add_convert_command(program, run);
     tenebra::viewer::add_bake_command(program, run);
+    tenebra::viewer::add_sun_command(program, run);
     tenebra::viewer::add_compare_command(program, run);
     tenebra::viewer::add_log_command(program, run);
     tenebra::viewer::add_verify_command(program, run);

@@ -14,6 +14,7 @@ void add_render_command(CLI::App& program, Run& run);
 void add_info_command(CLI::App& program, Run& run);
 void add_convert_command(CLI::App& program, Run& run);
 void add_bake_command(CLI::App& program, Run& run);
+void add_sun_command(CLI::App& program, Run& run);
 void add_compare_command(CLI::App& program, Run& run);
 void add_log_command(CLI::App& program, Run& run);
 void add_verify_command(CLI::App& program, Run& run);

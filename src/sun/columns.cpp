@@ -1,0 +1,107 @@
+#include "sun/columns.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "base/fail.h"
+#include "io/input_file.h"
+
+namespace tenebra::sun {
+namespace {
+
+constexpr std::size_t most_bytes = std::size_t{1} << 30;
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r\"";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == text.npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+/// The cells of a line, without blanks and quotes around them.
+void split_cells(std::string_view line, std::vector<std::string_view>& cells) {
+  cells.clear();
+  for (std::size_t at = 0;;) {
+    const std::size_t comma = line.find(',', at);
+    cells.push_back(trimmed(line.substr(at, comma - at)));
+    if (comma == line.npos) return;
+    at = comma + 1;
+  }
+}
+
+std::optional<double> finite_number(std::string_view text) {
+  double value = 0;
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
+  return whole ? std::optional(value) : std::nullopt;
+}
+
+bool same_word(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [&](char x, char y) { return lower(x) == lower(y); });
+}
+
+/// Hands out the lines that hold something, and counts all.
+class Lines {
+public:
+  explicit Lines(std::string_view text) : text_(text) {
+    if (text_.starts_with("\xef\xbb\xbf")) text_.remove_prefix(3);  // a byte order mark
+  }
+  std::optional<std::string_view> next() {
+    while (!text_.empty()) {
+      const std::size_t end = text_.find('\n');
+      const std::string_view line = trimmed(text_.substr(0, end));
+      text_.remove_prefix(end == text_.npos ? text_.size() : end + 1);
+      ++number_;
+      if (!line.empty() && !line.starts_with('#')) return line;
+    }
+    return std::nullopt;
+  }
+  std::size_t number() const { return number_; }
+
+private:
+  std::string_view text_;
+  std::size_t number_ = 0;
+};
+
+}  // namespace
+
+Expected<Columns> read_columns(const std::filesystem::path& file, std::span<const std::string_view> names) {
+  const auto text = io::read_file(file, most_bytes);
+  if (!text) return tl::unexpected(text.error());
+  Lines lines(*text);
+  std::vector<std::string_view> cells;
+  split_cells(lines.next().value_or(""), cells);
+  std::vector<std::optional<std::size_t>> places;
+  for (const std::string_view name : names) {
+    const auto found =
+        std::find_if(cells.begin(), cells.end(), [&](auto cell) { return same_word(cell, name); });
+    places.push_back(found == cells.end() ? std::nullopt
+                                          : std::optional(static_cast<std::size_t>(found - cells.begin())));
+  }
+  Columns columns{std::vector<std::vector<double>>(names.size()), 0};
+  while (const auto line = lines.next()) {
+    split_cells(*line, cells);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (!places[i]) continue;
+      const std::string_view cell = *places[i] < cells.size() ? cells[*places[i]] : "";
+      const auto number = finite_number(cell);
+      if (!number)
+        return base::fail("{}:{}: found {} for {}, expected a number", file.string(), lines.number(),
+                          cell.empty() ? "nothing" : std::string(cell.substr(0, 40)), names[i]);
+      columns.values[i].push_back(*number);
+    }
+    ++columns.rows;
+  }
+  if (columns.rows == 0)
+    return base::fail("{}: found no row of numbers, expected a line of names and rows below it",
+                      file.string());
+  return columns;
+}
+
+}  // namespace tenebra::sun

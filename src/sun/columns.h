@@ -1,0 +1,26 @@
+// Numbers of a file of comma-separated values, by the names in its first line.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <tenebra/expected.h>
+
+namespace tenebra::sun {
+
+struct Columns {
+  /// One for each name that was asked for, finite numbers; empty: the file has no such column.
+  std::vector<std::vector<double>> values;
+  std::size_t rows = 0;
+
+  bool has(std::size_t column) const { return !values[column].empty(); }
+};
+
+/// Reads the columns of these names, in lower or upper case; others may hold anything. Empty lines and lines
+/// that begin with # are passed over. Refuses, by its line, a value that is no number; files without a row,
+/// or of more than 1 GiB.
+Expected<Columns> read_columns(const std::filesystem::path& file, std::span<const std::string_view> names);
+
+}  // namespace tenebra::sun

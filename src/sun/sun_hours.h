@@ -1,0 +1,43 @@
+// What places see of many suns: sums of weights, the first and the last sun.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <tenebra/queries.h>
+#include "sun/receivers.h"
+#include "sun/suns.h"
+
+namespace tenebra::sun {
+
+struct HoursConfig {
+  double disc_deg =
+      0;  ///< the sun's diameter, 0 to 90; 0: a point. Of a disc the visible share of its area counts
+  bool months = false;  ///< sums for each month too
+  HardShadowConfig hard;
+  SoftShadowConfig soft;
+};
+
+/// One for each receiver.
+struct SunHours {
+  std::vector<double> sums;         ///< mean over its points of the weights of the suns that they see
+  std::vector<std::int32_t> first;  ///< the first sun of the list that one of its points sees; -1: none
+  std::vector<std::int32_t> last;   ///< the last one
+  std::vector<double> months;       ///< twelve each, as sums; empty: not asked for
+};
+
+/// The same bytes for any number of threads and vector level. `ends`: one past the last point of each
+/// receiver, ascending; the last one is the number of points. Takes 24 bytes for each receiver (120 with
+/// months) and some 100 for each of 2^18 points at a time. Fails as PointTracer does, with "stopped" soon
+/// after `stop`.
+Expected<SunHours> sun_hours(const Geometry& geometry, const QueryPoints& points,
+                             std::span<const std::uint32_t> ends, std::span<const Sun> suns,
+                             const HoursConfig& config, const StopFlag* stop = nullptr,
+                             const QueryProgress& progress = {});
+
+/// The same of receivers.
+Expected<SunHours> sun_hours(const Geometry& geometry, const Receivers& receivers, const Suns& suns,
+                             const HoursConfig& config, const StopFlag* stop = nullptr,
+                             const QueryProgress& progress = {});
+
+}  // namespace tenebra::sun

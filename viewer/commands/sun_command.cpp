@@ -1,0 +1,193 @@
+// tenebra sun: how long the sun reaches faces, the ground or points.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <tenebra/threads.h>
+#include "base/fail.h"
+#include "base/stopwatch.h"
+#include "commands/command.h"
+#include "io/output_file.h"
+#include "options/sun_options.h"
+#include "session/session.h"
+#include "shared/files_apart.h"
+#include "shell/console.h"
+#include "shell/memory_limit.h"
+#include "shell/progress.h"
+#include "shell/stop_signals.h"
+#include "sun/hours_table.h"
+
+namespace tenebra::viewer {
+namespace {
+
+constexpr const char* sun_examples =
+    "Examples:\n"
+    "  tenebra sun house.obj --up-axis z --place 48.14,11.58 --day 2026-06-21 --zone +02:00 --csv hours.csv\n"
+    "      hours of sun on each face, with the first and the last sun\n"
+    "  tenebra sun park.glb --place 48.14,11.58 --days 2026-03-01:2026-09-30:7 --ground 0 --cell 0.5 --csv "
+    "park.csv\n"
+    "      a half year on the ground, every seventh day, with minutes for each month\n"
+    "  tenebra sun house.glb --suns sky.csv --points windows.csv --json windows.json\n"
+    "      the weights of the suns that each point sees\n"
+    "\n"
+    "Exact: no bias, and nothing between a point and the sun is missed. Hours are those of an open, flat "
+    "horizon, of\n"
+    "the scene's triangles and of nothing else: no clouds, no reflected light, no hills beyond the file. "
+    "See-through\n"
+    "materials let all light pass; --no-cast NAME takes more out. Times are those of suns: each stands for "
+    "--step\n"
+    "minutes around it.\n"
+    "Exit code: 0 done, 1 failed (one sentence says why), 124 the time of --timeout is up, 129, 130 or 143 "
+    "stopped\n"
+    "by a signal; files are then whole or absent.";
+
+/// A scene of one instant.
+struct SunScene {
+  session::StagedScene staged;
+  render::FrameInput input;
+};
+
+Expected<SunScene> stage_for_sun(const SunOptions& options) {
+  SceneOptions of_scene = options.scene;
+  of_scene.exposure_given = true, of_scene.shows = false;
+  of_scene.sky = stage::Sky::none;
+  auto staged = session::stage_scene(of_scene, session::Staging::for_light);
+  if (!staged) return tl::unexpected(staged.error());
+  SunScene scene{std::move(*staged), {}};
+  const double time_s = options.scene.time_s.value_or(scene.staged.time_of_frame(0));
+  session::evaluate(scene.staged.scene, options.scene.edits, scene.staged.clip, time_s, scene.input);
+  return scene;
+}
+
+Expected<sun::Suns> find_suns(const SunOptions& options, const FileFrame& frame) {
+  if (!options.suns.empty()) return sun::read_suns(options.suns, frame, options.north_deg);
+  return sun::suns_of({*options.place, *options.days, options.step_min, options.zone_min.value_or(0),
+                       options.north_deg,
+                       options.refraction ? sun::Refraction::standard : sun::Refraction::none});
+}
+
+Expected<sun::Receivers> find_receivers(const SunOptions& options, const SunScene& scene) {
+  const FrameGeometry& frame = scene.input.geometry;
+  const FileFrame& file = scene.staged.scene.frame;
+  if (!options.points.empty()) return sun::read_receivers(options.points, file);
+  if (options.ground) return sun::ground_receivers(frame, file, *options.ground, options.cell_m);
+  return sun::face_receivers(scene.staged.scene, frame, options.faces);
+}
+
+/// What a user should know of the suns and the scene.
+void print_sun_notes(const SunOptions& options, const sun::Suns& suns, const FrameGeometry& frame) {
+  if (suns.list.empty()) print_error("note: no sun stands above the horizon, so there are no hours\n");
+  if (!suns.timed && suns.below > 0)
+    print_error("note: {} suns below the horizon do not count\n", suns.below);
+  constexpr double far_deg = 45;  // three hours
+  if (options.place && !options.zone_min && std::abs(options.place->longitude_deg) > far_deg)
+    print_error(
+        "note: days and times are UTC, where a day here begins {:.0f} hours off midnight; --zone +HH:MM "
+        "gives others\n",
+        std::abs(options.place->longitude_deg) / 15);
+  const auto panes = std::count(frame.see_through.begin(), frame.see_through.end(), 1);
+  if (panes > 0) print_error("note: {} see-through triangles let all light pass\n", panes);
+}
+
+bool spans_months(const sun::Suns& suns) {
+  return suns.timed && !suns.list.empty() && suns.list.front().month != suns.list.back().month;
+}
+
+Expected<sun::SunHours> count_hours(const SunOptions& options, const FrameGeometry& frame,
+                                    const sun::Receivers& receivers, const sun::Suns& suns,
+                                    const StopFlag& stop) {
+  const auto geometry = Geometry::create(frame.positions, frame.triangles, frame.casts_shadow);
+  if (!geometry) return tl::unexpected(geometry.error());
+  const render::RenderSettings settings = render_settings(options.method, {}, {});
+  Progress line(1, options.quiet);
+  const auto progress = [&](double done) { line.show_building("sun", done); };
+  Expected<sun::SunHours> hours;
+  with_threads(settings.threads, [&] {
+    hours =
+        sun::sun_hours(*geometry, receivers, suns,
+                       {options.disc_deg, spans_months(suns), settings.hard, settings.soft}, &stop, progress);
+  });
+  return hours;
+}
+
+Expected<void> write_tables(const SunOptions& options, const sun::Study& study) {
+  if (!options.csv.empty())
+    if (auto written = io::write_file(options.csv, sun::csv_of(study)); !written) return written;
+  if (!options.json.empty())
+    if (auto written = io::write_file(options.json, sun::json_of(study)); !written) return written;
+  return {};
+}
+
+void print_summary(const sun::Study& study, double ms) {
+  double sum = 0, weight = 0, least = HUGE_VAL, most = 0;
+  for (std::size_t i = 0; i < study.hours.sums.size(); ++i) {
+    const double area = study.receivers.list[i].area_m2, counts = area > 0 ? area : 1;
+    const double value = study.hours.sums[i] / (study.suns.timed ? 60 : 1);
+    sum += counts * value, weight += counts, least = std::min(least, value), most = std::max(most, value);
+  }
+  const char* kinds[] = {"faces", "cells", "points"};
+  print_out("{} {}, {} points, {} suns, {} {:.4g} to {:.4g}, mean {:.4g}, {:.2f} s\n",
+            study.receivers.list.size(), kinds[static_cast<int>(study.receivers.kind)],
+            study.receivers.positions.size(), study.suns.list.size(), study.suns.timed ? "hours" : "sums",
+            least, most, sum / weight, ms / 1e3);
+}
+
+Expected<void> check_sun_outputs(const SunScene& scene, const SunOptions& options) {
+  std::vector<std::filesystem::path> inputs = scene.staged.inputs;
+  for (const std::string& file : {options.suns, options.points})
+    if (!file.empty()) inputs.emplace_back(file);
+  return check_files_apart(
+      inputs, [&](const std::function<Expected<void>(const OutputName&)>& use) -> Expected<void> {
+        for (const auto& [option, file] :
+             {OutputName{"--csv", options.csv}, OutputName{"--json", options.json}}) {
+          if (file.empty()) continue;
+          if (auto used = use({option, file}); !used) return used;
+        }
+        return {};
+      });
+}
+
+Expected<int> study_sun(const SunOptions& options) {
+  if (auto limited = limit_memory(options.memory_mb); !limited) return tl::unexpected(limited.error());
+  StopSignals stop(options.timeout_s, StopSignals::Start::at_once);
+  const auto scene = stage_for_sun(options);
+  if (!scene) return tl::unexpected(scene.error());
+  if (auto apart = check_sun_outputs(*scene, options); !apart) return tl::unexpected(apart.error());
+  const Scene& staged = scene->staged.scene;
+  const FrameGeometry& frame = scene->input.geometry;
+  const auto suns = find_suns(options, staged.frame);
+  if (!suns) return tl::unexpected(suns.error());
+  const auto receivers = find_receivers(options, *scene);
+  if (!receivers) return tl::unexpected(receivers.error());
+  if (!options.quiet) print_warnings(staged.warnings), print_sun_notes(options, *suns, frame);
+  stop.be_orderly();
+  base::Stopwatch watch;
+  const auto hours = count_hours(options, frame, *receivers, *suns, stop.flag());
+  if (is_stop(hours)) {
+    print_error("tenebra: stopped before the hours were counted, nothing is written\n");
+    return stop.exit_code();
+  }
+  if (!hours) return tl::unexpected(hours.error());
+  const sun::Study study{staged, frame, *receivers, *suns, *hours};
+  if (auto written = write_tables(options, study); !written) return tl::unexpected(written.error());
+  if (!options.quiet) print_summary(study, watch.lap_ms());
+  return 0;
+}
+
+}  // namespace
+
+void add_sun_command(CLI::App& program, Run& run) {
+  CLI::App& command = add_command(program, "sun", "Count the hours of sun on faces, the ground or points");
+  const auto options = std::make_shared<SunOptions>();
+  set_examples(command, sun_examples);
+  add_sun_options(command, *options);
+  when_chosen(command, [options, &command, &run] {
+    const auto settled = settle_sun_options(command, *options);
+    run = [options, settled]() -> Expected<int> {
+      if (!settled) return tl::unexpected(settled.error());
+      return study_sun(*options);
+    };
+  });
+}
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,179 @@
+#include "options/sun_options.h"
+
+#include "base/fail.h"
+#include "formats/placement.h"
+#include "options/memory_option.h"
+#include "options/settings_names.h"
+
+namespace tenebra::viewer {
+namespace {
+
+constexpr const char* sun_group = "Suns";
+constexpr const char* where_group = "Where";
+
+Expected<sun::Place> parse_place_on_earth(const std::string& text) {
+  const auto parts = split(text, ',');
+  const auto latitude = finite_from(parts[0]),
+             longitude = parts.size() == 2 ? finite_from(parts[1]) : std::nullopt;
+  if (!latitude || !longitude)
+    return base::fail("found {}, expected degrees of latitude and longitude, like 48.14,11.58", text);
+  if (*latitude < -90 || *latitude > 90)
+    return base::fail("found the latitude {}, expected -90 to 90 degrees; latitude comes first", *latitude);
+  if (*longitude < -180 || *longitude > 180)
+    return base::fail("found the longitude {}, expected -180 to 180 degrees, east positive", *longitude);
+  return sun::Place{*latitude, *longitude};
+}
+
+Expected<sun::Days> parse_one_day(const std::string& text) {
+  return sun::parse_day(text).map([](sun::Day day) { return sun::Days{day, day, 1}; });
+}
+
+Expected<double> parse_number_within(const std::string& text, double low, double high, const char* expected) {
+  const auto number = finite_from(text);
+  if (!number || *number < low || *number > high) return base::fail("found {}, expected {}", text, expected);
+  return *number;
+}
+Expected<double> parse_step(const std::string& text) {
+  return parse_number_within(text, 0.1, 240, "0.1 to 240 minutes");
+}
+Expected<double> parse_turn(const std::string& text) {
+  return parse_number_within(text, -360, 360, "-360 to 360 degrees");
+}
+Expected<double> parse_disc(const std::string& text) {
+  return parse_number_within(text, 0, 90, "0 to 90 degrees");
+}
+Expected<double> parse_height(const std::string& text) {
+  return parse_number_within(text, -1e9, 1e9, "a height");
+}
+Expected<double> parse_cell(const std::string& text) {
+  return parse_number_within(text, 1e-3, 1e6, "0.001 to 1000000 metres");
+}
+Expected<int> parse_per_face(const std::string& text) {
+  const auto number = parse_count(text);
+  if (!number || *number < 1 || *number > 65536)
+    return base::fail("found {}, expected 1 to 65536 points", text);
+  return *number;
+}
+
+void add_suns(CLI::App& command, SunOptions& options) {
+  const AddedOption added[] = {
+      add_value(command, "--place", options.place, parse_place_on_earth,
+                "Degrees of latitude and longitude, north and east positive")
+          .type_name("LAT,LON"),
+      add_value(command, "--day", options.days, parse_one_day, "The day, from midnight to midnight of --zone")
+          .type_name("YYYY-MM-DD"),
+      add_value(command, "--days", options.days, sun::parse_days,
+                "Days from A to B. Of each N days the middle one is computed\nand counts for all of them [1]")
+          .type_name("A:B[:N]"),
+      add_value(command, "--step", options.step_min, parse_step,
+                "Minutes between suns; each stands in the middle of its step [10]")
+          .type_name("MIN"),
+      add_value(command, "--zone", options.zone_min, sun::parse_zone,
+                "Hours and minutes ahead of UTC that days and times are given\n"
+                "in, as of that day: daylight saving is not looked up [UTC]")
+          .type_name("+HH:MM"),
+      add_value(command, "--north", options.north_deg, parse_turn,
+                "How far true north is turned from the file's north (its y if\n"
+                "z is up, its -z if y is), clockwise seen from above [0]")
+          .type_name("DEG"),
+      add_flag(command, "--refraction", options.refraction,
+               "Count what air lifts the sun by, half a degree at the horizon"),
+      add_text(command, "--suns", options.suns,
+               "Suns in place of place and days: columns x, y, z (towards the\n"
+               "sun, the file's axes) or azimuth, altitude; weight")
+          .type_name("FILE.csv"),
+      add_value(command, "--disc", options.disc_deg, parse_disc,
+                "The sun's diameter in degrees: its visible share counts. The\n"
+                "sun has 0.53; 0 is a point [0]")
+          .type_name("DEG")};
+  for (const AddedOption option : added) option.group(sun_group);
+}
+
+void add_where(CLI::App& command, SunOptions& options) {
+  const AddedOption added[] = {
+      add_texts(command, "--node", options.faces.nodes,
+                "Faces of this node and all below it; may be repeated")
+          .type_name("NAME"),
+      add_texts(command, "--material", options.faces.materials, "Faces of this material; may be repeated")
+          .type_name("NAME"),
+      add_flag(command, "--upward", options.faces.upward,
+               "Only faces that rise at most 60 degrees: roofs and ground"),
+      add_flag(
+          command, "--both-sides", options.faces.both_sides,
+          "Count the side of a face that the sun is on; for files whose\nfaces do not all point outward"),
+      add_value(command, "--per-face", options.faces.per_face, parse_per_face,
+                "Points on each face, rounded up to a square number [16]")
+          .type_name("N"),
+      add_value(command, "--per-m2", options.faces.per_m2, parse_positive,
+                "Points per square metre of a face instead")
+          .type_name("D"),
+      add_value(command, "--ground", options.ground, parse_height,
+                "In place of faces a horizontal plane at this height of the\nfile, below the whole scene as "
+                "seen from above")
+          .type_name("Z"),
+      add_value(command, "--cell", options.cell_m, parse_cell, "Side of the ground's cells in metres [1]")
+          .type_name("M"),
+      add_text(
+          command, "--points", options.points,
+          "In place of faces points: columns x, y, z and, if known,\nnx, ny, nz, in the file's coordinates")
+          .type_name("FILE.csv")};
+  for (const AddedOption option : added) option.group(where_group);
+}
+
+Expected<void> check_suns(const CLI::App& command, const SunOptions& options) {
+  if (was_given(command, "--day") && was_given(command, "--days")) return base::fail("--day excludes --days");
+  if (!options.suns.empty()) {
+    for (const char* name : {"--place", "--day", "--days", "--step", "--zone", "--refraction"})
+      if (was_given(command, name)) return base::fail("--suns excludes {}", name);
+    return {};
+  }
+  if (!options.place || !options.days)
+    return base::fail(
+        "found no suns, expected --place LAT,LON and --day YYYY-MM-DD (or --days), or --suns FILE.csv");
+  return {};
+}
+
+Expected<void> check_where(const CLI::App& command, const SunOptions& options) {
+  const bool ground = options.ground.has_value(), points = !options.points.empty();
+  if (ground && points) return base::fail("--ground excludes --points");
+  for (const char* name : {"--node", "--material", "--upward", "--both-sides", "--per-face", "--per-m2"})
+    if ((ground || points) && was_given(command, name))
+      return base::fail("{} is for faces, which {} takes the place of", name,
+                        ground ? "--ground" : "--points");
+  if (was_given(command, "--cell") && !ground) return base::fail("--cell is for --ground");
+  if (was_given(command, "--per-face") && was_given(command, "--per-m2"))
+    return base::fail("--per-face excludes --per-m2");
+  return {};
+}
+
+}  // namespace
+
+void add_sun_options(CLI::App& command, SunOptions& options) {
+  add_text(command, "SCENE", options.scene.file, "Scene file: .gltf .glb .aff .nff .obj").required();
+  add_text(command, "--csv", options.csv, "Table to write").type_name("FILE.csv");
+  add_text(command, "--json", options.json, "The same as JSON").type_name("FILE.json");
+  add_suns(command, options);
+  add_where(command, options);
+  add_value(command, "--timeout", options.timeout_s, parse_positive,
+            "Stop after this many seconds, as Ctrl-C does")
+      .type_name("S");
+  add_memory_option(command, options.memory_mb);
+  add_flag(command, "--quiet", options.quiet, "No progress, no summary and no warnings");
+  add_settings(command, settings::scene_table(), options.scene,
+               {"scene", "up-axis", "unit", "offset", "no-cast", "cast-all", "cone-sides", "cutout-limit",
+                "texture-path", "file-root", "set-node", "time", "fps", "clip"});
+  add_settings(command, settings::method_table(), options.method, {"soft-memory", "threads", "simd"});
+}
+
+Expected<void> settle_sun_options(const CLI::App& command, SunOptions& options) {
+  settle_memory(command, options.memory_mb, options.method);
+  if (auto checked = check_suns(command, options); !checked) return checked;
+  if (auto checked = check_where(command, options); !checked) return checked;
+  if (!formats::states_coordinates(options.scene.file) && !options.scene.import.placement.up)
+    return base::fail(
+        "{}: its format does not say which axis is up, expected --up-axis z (maps, most CAD) or --up-axis y",
+        options.scene.file);
+  return {};
+}
+
+}  // namespace tenebra::viewer

@@ -1,0 +1,42 @@
+// The options of `tenebra sun`.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "options/method_options.h"
+#include "options/scene_options.h"
+#include "sun/sun_hours.h"
+
+namespace tenebra::viewer {
+
+struct SunOptions {
+  SceneOptions scene;
+  std::optional<sun::Place> place;
+  std::optional<sun::Days> days;
+  double step_min = 10;
+  std::optional<int> zone_min;  ///< none: UTC
+  double north_deg = 0;
+  bool refraction = false;
+  std::string suns;  ///< a file in place of place and days; empty: not given
+  double disc_deg = 0;
+
+  sun::FaceChoice faces;
+  std::optional<double> ground;  ///< height of a plane, in the file's unit
+  double cell_m = 1;
+  std::string points;  ///< a file; empty: not given
+
+  MethodOptions method;
+  std::string csv, json;
+  double timeout_s = std::numeric_limits<double>::infinity();
+  std::optional<int> memory_mb;  ///< of the whole program
+  bool quiet = false;
+};
+
+void add_sun_options(CLI::App& command, SunOptions& options);
+
+/// Checks what single options cannot.
+Expected<void> settle_sun_options(const CLI::App& command, SunOptions& options);
+
+}  // namespace tenebra::viewer
