@@ -100,6 +100,14 @@ public:
                            const HardShadowConfig& config, std::span<std::uint8_t> mask,
                            const StopFlag* stop = nullptr, const QueryProgress& progress = {});
 
+  /// hard_mask() for one light after the other: use(i, mask) gets that of lights[i], before the next is
+  /// traced. Points, up to 2^18 of them, are prepared once for all lights but where a light changes the side
+  /// that one is on.
+  Expected<void> hard_masks(const Geometry& geometry, const QueryPoints& points,
+                            std::span<const ShadowLight> lights, const HardShadowConfig& config,
+                            const std::function<void(std::size_t, std::span<const std::uint8_t>)>& use,
+                            const StopFlag* stop = nullptr);
+
   /// The answers of SoftShadowTracer: the visible part of the light's area, 0 to 1, and the irradiance on a
   /// surface with the given normal (else the triangle's; with neither, parallel to the light), W/m2 for
   /// radiance 1. One of the two spans may be empty.

@@ -1,8 +1,10 @@
 // Hard masks of points. A point that does not say on which side of its triangle it is is on the light's.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "math/predicates.h"
+#include "points/point_tiles.h"
 #include "points/triangle_corners.h"
 #include "query/tracer_state.h"
 
@@ -60,6 +62,43 @@ dvec3 towards(const ShadowLight& light, const dvec3& point) {
   return way == dvec3(0.0) ? dvec3(0, 1, 0) : way;
 }
 
+/// The triangle and the side that a light asks point `i` about; no_triangle where it cannot reach it.
+std::pair<std::uint32_t, int> asked_about(const query::TracerState& s, const QueryPoints& points,
+                                          std::size_t i, const TriangleView& triangles,
+                                          const ShadowLight& light, LightSide& light_side) {
+  const std::uint32_t triangle = query::triangle_of(points, i);
+  if (triangle != no_triangle) {
+    const int side = query::said_side(points, i, triangles);
+    return {triangle, side != 0 ? side : light_side(triangle)};
+  }
+  const dvec3 normal(query::normal_of(points, i));
+  const bool behind = normal != dvec3(0.0) && !(glm::dot(normal, towards(light, s.place_of(points, i))) > 0);
+  return {behind ? no_triangle : free_point, 0};
+}
+
+/// Sets what `light` asks about; whether any point's is another than before.
+bool ask(query::TracerState& s, const QueryPoints& points, const query::Portion& portion,
+         const TriangleView& triangles, const ShadowLight& light) {
+  std::vector<std::uint8_t> changed(portion.count() / query::Portion::run + 1);  // of each run
+  query::each_run(portion, [&](std::size_t first, std::size_t last) {
+    LightSide light_side(triangles, light);
+    bool other = false;
+    for (std::size_t i = first; i < last; ++i) {
+      const auto [triangle, side] = asked_about(s, points, portion.first() + i, triangles, light, light_side);
+      const std::size_t pixel = portion.pixel(i);
+      other |= s.seen.triangles[pixel] != triangle || s.seen.sides[pixel] != side;
+      s.seen.triangles[pixel] = triangle, s.seen.sides[pixel] = static_cast<std::int8_t>(side);
+    }
+    changed[first / query::Portion::run] = other;
+  });
+  return std::find(changed.begin(), changed.end(), 1) != changed.end();
+}
+
+/// Whether one portion holds all points, so that they need not be made again for another light.
+bool fits_one_portion(const QueryPoints& points) {
+  return !points.positions.empty() && query::Portion(points, 0).count() == points.positions.size();
+}
+
 }  // namespace
 
 Expected<void> PointTracer::hard_mask(const Geometry& geometry, const QueryPoints& points,
@@ -78,28 +117,45 @@ Expected<void> PointTracer::hard_mask(const Geometry& geometry, const QueryPoint
   return query::in_portions(points, stop, progress, [&](const query::Portion& portion) -> Expected<void> {
     const TriangleView triangles = s.triangles();
     s.begin(points, portion);
-    query::each_run(portion, [&](std::size_t first, std::size_t last) {
-      LightSide light_side(triangles, light);
-      for (std::size_t i = first; i < last; ++i) {
-        const std::size_t point = portion.first() + i, pixel = portion.pixel(i);
-        const std::uint32_t triangle = query::triangle_of(points, point);
-        if (triangle != no_triangle) {
-          const int side = query::said_side(points, point, triangles);
-          s.seen.triangles[pixel] = triangle;
-          s.seen.sides[pixel] = static_cast<std::int8_t>(side != 0 ? side : light_side(triangle));
-          continue;
-        }
-        const dvec3 to_light = towards(light, s.place_of(points, point));
-        const dvec3 normal(query::normal_of(points, point));
-        if (normal != dvec3(0.0) && !(glm::dot(normal, to_light) > 0)) continue;
-        s.seen.triangles[pixel] = free_point;
-      }
-    });
+    ask(s, points, portion, triangles, light);
     if (!s.hard.trace_shadow_mask(s.seen, triangles, light, config, s.mask, stop)) return base::stopped();
     query::each_point(portion,
                       [&](std::size_t i, std::size_t pixel) { mask[portion.first() + i] = s.mask[pixel]; });
     return {};
   });
+}
+
+Expected<void> PointTracer::hard_masks(
+    const Geometry& geometry, const QueryPoints& points, std::span<const ShadowLight> lights,
+    const HardShadowConfig& config,
+    const std::function<void(std::size_t, std::span<const std::uint8_t>)>& use, const StopFlag* stop) {
+  const parallel::FloatEnvironment ieee;
+  query::TracerState& s = *state_;
+  std::vector<std::uint8_t> mask(points.positions.size());
+  if (!fits_one_portion(points)) {
+    for (std::size_t l = 0; l < lights.size(); ++l) {
+      if (auto done = hard_mask(geometry, points, lights[l], config, mask, stop); !done) return done;
+      use(l, mask);
+    }
+    return {};
+  }
+  for (const ShadowLight& light : lights)
+    if (auto checked = check_light(light); !checked) return checked;
+  if (auto checked = query::check_points(points, *geometry.data_); !checked) return checked;
+  s.follow(geometry.data_);
+  const TriangleView triangles = s.triangles();
+  const query::Portion portion(points, 0);
+  s.begin(points, portion);
+  for (std::size_t l = 0; l < lights.size(); ++l) {
+    if (stop_requested(stop)) return base::stopped();
+    if (ask(s, points, portion, triangles, lights[l]) && config.variant == Variant::tiles)
+      points::make_point_tiles(s.seen, triangles, *s.seen.tiles);
+    if (!s.hard.trace_shadow_mask(s.seen, triangles, lights[l], config, s.mask, stop)) return base::stopped();
+    query::each_point(portion, [&](std::size_t i, std::size_t pixel) { mask[i] = s.mask[pixel]; });
+    use(l, mask);
+  }
+  s.seen.tiles.clear();
+  return {};
 }
 
 }  // namespace tenebra

@@ -15,6 +15,7 @@ namespace tenebra::query {
 class Portion {
 public:
   static constexpr std::size_t most = std::size_t{1} << 18;  ///< points; more if rows are very long
+  static constexpr std::size_t run = 4096;                   ///< points that each_run passes at most
 
   /// The portion that begins with point `first` of `points`, which has more than `first`.
   Portion(const QueryPoints& points, std::size_t first)
@@ -46,7 +47,7 @@ private:
 /// Calls body(first, last) for runs of a portion's points, on several threads.
 template <class Body>
 void each_run(const Portion& portion, const Body& body) {
-  parallel::parallel_ranges(portion.count(), 4096, body);
+  parallel::parallel_ranges(portion.count(), Portion::run, body);
 }
 /// Calls body(i, pixel) for the points i of a portion, likewise.
 template <class Body>

@@ -1,6 +1,7 @@
 #include "sun/sun_hours.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "base/fail.h"
 #include "parallel/parallel.h"
@@ -21,39 +22,6 @@ QueryPoints part_of(const QueryPoints& points, std::size_t first, std::size_t co
           .sides = part_of(points.sides, first, count)};
 }
 
-/// How much each point sees of a sun, 0 to 1.
-class Sight {
-public:
-  Sight(const Geometry& geometry, const HoursConfig& config) : geometry_(geometry), config_(config) {}
-
-  Expected<void> look(const QueryPoints& points, const Sun& sun, const StopFlag* stop) {
-    const std::size_t count = points.positions.size();
-    if (config_.disc_deg > 0) {
-      const auto disc = make_sun(glm::vec3(sun.to_sun), config_.disc_deg);
-      if (!disc) return tl::unexpected(disc.error());
-      fractions_.resize(count);
-      return tracer_.soft_visibility(geometry_, points, *disc, config_.soft, fractions_, {}, stop);
-    }
-    mask_.resize(count);
-    return tracer_.hard_mask(geometry_, points, {.directional = true, .to_light = glm::vec3(sun.to_sun)},
-                             config_.hard, mask_, stop);
-  }
-  /// Of points [first, end), added up in their order.
-  double seen(std::size_t first, std::size_t end) const {
-    double sum = 0;
-    for (std::size_t i = first; i < end; ++i)
-      sum += config_.disc_deg > 0 ? static_cast<double>(fractions_[i]) : mask_[i] != 0 ? 1.0 : 0.0;
-    return sum;
-  }
-
-private:
-  const Geometry& geometry_;
-  const HoursConfig& config_;
-  PointTracer tracer_;
-  std::vector<std::uint8_t> mask_;
-  std::vector<float> fractions_;
-};
-
 /// Receivers [first, end) and where their points begin.
 struct Batch {
   std::size_t first, end;
@@ -65,6 +33,20 @@ Batch next_batch(std::span<const std::uint32_t> ends, std::size_t first) {
   while (end < ends.size() && ends[end] - begin <= most_at_a_time) ++end;
   return {first, end, begin, ends[end - 1]};
 }
+
+/// How much each point of a batch sees of a sun: marks of a mask, or shares of a disc.
+struct Sight {
+  std::span<const std::uint8_t> mask;
+  std::span<const float> shares;
+
+  /// Of points [first, end), added up in their order.
+  double seen(std::size_t first, std::size_t end) const {
+    double sum = 0;
+    for (std::size_t i = first; i < end; ++i)
+      sum += mask.empty() ? static_cast<double>(shares[i]) : mask[i] != 0 ? 1.0 : 0.0;
+    return sum;
+  }
+};
 
 /// Adds what the batch sees of sun `number`.
 void add(const Sight& sight, const Batch& batch, std::span<const std::uint32_t> ends, const Sun& sun,
@@ -80,6 +62,35 @@ void add(const Sight& sight, const Batch& batch, std::span<const std::uint32_t> 
       out.last[r] = number;
     }
   });
+}
+
+using Use = std::function<void(std::size_t sun, const Sight& sight)>;
+
+Expected<void> see_points(PointTracer& tracer, const Geometry& geometry, const QueryPoints& points,
+                          std::span<const Sun> suns, const HoursConfig& config, const StopFlag* stop,
+                          const Use& use) {
+  std::vector<ShadowLight> lights;
+  for (const Sun& sun : suns) lights.push_back({.directional = true, .to_light = glm::vec3(sun.to_sun)});
+  return tracer.hard_masks(
+      geometry, points, lights, config.hard,
+      [&](std::size_t sun, std::span<const std::uint8_t> mask) {
+        use(sun, {mask, {}});
+      },
+      stop);
+}
+
+Expected<void> see_discs(PointTracer& tracer, const Geometry& geometry, const QueryPoints& points,
+                         std::span<const Sun> suns, const HoursConfig& config, const StopFlag* stop,
+                         const Use& use) {
+  std::vector<float> shares(points.positions.size());
+  for (std::size_t s = 0; s < suns.size(); ++s) {
+    const auto disc = make_sun(glm::vec3(suns[s].to_sun), config.disc_deg);
+    if (!disc) return tl::unexpected(disc.error());
+    auto done = tracer.soft_visibility(geometry, points, *disc, config.soft, shares, {}, stop);
+    if (!done) return done;
+    use(s, {{}, shares});
+  }
+  return {};
 }
 
 void divide_by_points(std::span<const std::uint32_t> ends, SunHours& out) {
@@ -101,17 +112,19 @@ Expected<SunHours> sun_hours(const Geometry& geometry, const QueryPoints& points
                std::vector<std::int32_t>(count, -1),
                {}};
   if (config.months) out.months.resize(12 * count);
-  Sight sight(geometry, config);
+  PointTracer tracer;
   for (std::size_t first = 0; first < count;) {
     const Batch batch = next_batch(ends, first);
     const QueryPoints asked = part_of(points, batch.points_begin, batch.points_end - batch.points_begin);
-    for (std::size_t s = 0; s < suns.size(); ++s) {
-      if (auto looked = sight.look(asked, suns[s], stop); !looked) return tl::unexpected(looked.error());
+    const auto use = [&](std::size_t s, const Sight& sight) {
       add(sight, batch, ends, suns[s], static_cast<std::int32_t>(s), out);
       const double part = static_cast<double>(batch.points_end - batch.points_begin) *
                           static_cast<double>(s + 1) / static_cast<double>(suns.size());
       if (progress) progress((batch.points_begin + part) / static_cast<double>(ends.back()));
-    }
+    };
+    const auto see = config.disc_deg > 0 ? see_discs : see_points;
+    auto seen = see(tracer, geometry, asked, suns, config, stop, use);
+    if (!seen) return tl::unexpected(seen.error());
     first = batch.end;
   }
   divide_by_points(ends, out);

@@ -99,6 +99,36 @@ TEST(PointTracer, HardMasksHaveTheBytesOfTheTracer) {
   }
 }
 
+// Points on triangles with and without a side, and free ones that face some of the lights.
+TEST(PointTracer, ManyLightsGiveTheMasksOfEach) {
+  Seen seen(4);
+  std::vector<ShadowLight> lights;
+  for (const float x : {-0.6f, -0.5f, 0.4f, 2.0f})
+    lights.push_back({.directional = true, .to_light = {x, 1, 0.2f}});
+  lights.push_back({.position = {0.2f, 0.9f, -0.3f}});
+  std::vector<vec3> normals(seen.sides.size());
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    if (i % 5 == 0) seen.visible.triangles[i] = no_triangle, normals[i] = vec3(1, -0.4f, 0);
+    if (i % 3 == 0) seen.sides[i] = 0;
+  }
+  QueryPoints points = seen.points(0);
+  points.normals = normals;
+  const Geometry geometry = geometry_of(seen.soup);
+  PointTracer many, single;
+  std::size_t used = 0, lit = 0;
+  const auto compare = [&](std::size_t light, std::span<const std::uint8_t> mask) {
+    EXPECT_EQ(light, used++);
+    const auto expected = hard_mask(single, geometry, points, lights[light]);
+    EXPECT_TRUE(std::equal(mask.begin(), mask.end(), expected.begin(), expected.end())) << light;
+    lit += static_cast<std::size_t>(std::count(mask.begin(), mask.end(), 255));
+  };
+  ASSERT_TRUE(many.hard_masks(geometry, points, lights, {}, compare).has_value());
+  EXPECT_EQ(used, lights.size());
+  EXPECT_GT(lit, 0u);
+  lights[1].to_light = vec3(0.0f);
+  EXPECT_FALSE(many.hard_masks(geometry, points, lights, {}, compare).has_value());
+}
+
 TEST(PointTracer, SoftFractionsAreThoseOfTheTracer) {
   const Seen seen(3);
   const AreaLight light = make_rectangle_light({0.1f, 0.9f, -0.2f}, {0.2f, 0, 0}, {0, 0, 0.2f}).value();
