@@ -15,18 +15,19 @@
 #include "shell/memory_limit.h"
 #include "shell/progress.h"
 #include "shell/stop_signals.h"
-#include "sun/hours_table.h"
+#include "sun/hours_model.h"
+#include "sun/plan.h"
 
 namespace tenebra::viewer {
 namespace {
 
 constexpr const char* sun_examples =
     "Examples:\n"
-    "  tenebra sun house.obj --up-axis z --place 48.14,11.58 --day 2026-06-21 --zone +02:00 --csv hours.csv\n"
-    "      hours of sun on each face, with the first and the last sun\n"
-    "  tenebra sun park.glb --place 48.14,11.58 --days 2026-03-01:2026-09-30:7 --ground 0 --cell 0.5 --csv "
-    "park.csv\n"
-    "      a half year on the ground, every seventh day, with minutes for each month\n"
+    "  tenebra sun house.obj --up-axis z --place 48.14,11.58 --day 2026-06-21 -o hours.glb --csv hours.csv\n"
+    "      hours of sun on each face as colours, and as a table with the first and the last sun\n"
+    "  tenebra sun park.glb --place 48.14,11.58 --days 2026-03-01:2026-09-30:7 --ground 0 --png "
+    "park.png\n"
+    "      a plan of a half year's hours on the ground, every seventh day computed\n"
     "  tenebra sun house.glb --suns sky.csv --points windows.csv --json windows.json\n"
     "      the weights of the suns that each point sees\n"
     "\n"
@@ -110,26 +111,56 @@ Expected<sun::SunHours> count_hours(const SunOptions& options, const FrameGeomet
   return hours;
 }
 
-Expected<void> write_tables(const SunOptions& options, const sun::Study& study) {
-  if (!options.csv.empty())
-    if (auto written = io::write_file(options.csv, sun::csv_of(study)); !written) return written;
-  if (!options.json.empty())
-    if (auto written = io::write_file(options.json, sun::json_of(study)); !written) return written;
+sun::ColourScale chosen_scale(const SunOptions& options, const sun::Study& study) {
+  return options.full > 0 ? sun::ColourScale{options.full} : sun::scale_of(study);
+}
+
+Expected<void> write_model(const SunOptions& options, const sun::Study& study) {
+  const auto model = sun::model_of(study, chosen_scale(options, study));
+  if (!model) return tl::unexpected(model.error());
+  io::remove_stale_temporaries(std::filesystem::path(options.model).parent_path());
+  const auto losses = formats::export_glb(model->scene, options.model, 30, model->additions);
+  if (!losses) return tl::unexpected(losses.error());
   return {};
 }
 
-void print_summary(const sun::Study& study, double ms) {
+Expected<void> write_plan(const SunOptions& options, const sun::Study& study) {
+  return io::write_png(options.plan, sun::plan_of(study, chosen_scale(options, study)));
+}
+
+Expected<void> write_hours(const SunOptions& options, const sun::Study& study) {
+  using Make = Expected<void> (*)(const SunOptions&, const sun::Study&);
+  const std::pair<const std::string&, Make> files[] = {
+      {options.csv,
+       [](const SunOptions& o, const sun::Study& of) { return io::write_file(o.csv, sun::csv_of(of)); }},
+      {options.json,
+       [](const SunOptions& o, const sun::Study& of) { return io::write_file(o.json, sun::json_of(of)); }},
+      {options.raster,
+       [](const SunOptions& o, const sun::Study& of) {
+         return io::write_file(o.raster, sun::geotiff_of(of, o.epsg));
+       }},
+      {options.plan, write_plan},
+      {options.model, write_model}};
+  for (const auto& [file, make] : files)
+    if (!file.empty())
+      if (auto written = make(options, study); !written) return written;
+  return {};
+}
+
+void print_summary(const SunOptions& options, const sun::Study& study, double ms) {
   double sum = 0, weight = 0, least = HUGE_VAL, most = 0;
   for (std::size_t i = 0; i < study.hours.sums.size(); ++i) {
     const double area = study.receivers.list[i].area_m2, counts = area > 0 ? area : 1;
-    const double value = study.hours.sums[i] / (study.suns.timed ? 60 : 1);
+    const double value = sun::value_of(study, i);
     sum += counts * value, weight += counts, least = std::min(least, value), most = std::max(most, value);
   }
   const char* kinds[] = {"faces", "cells", "points"};
   print_out("{} {}, {} points, {} suns, {} {:.4g} to {:.4g}, mean {:.4g}, {:.2f} s\n",
             study.receivers.list.size(), kinds[static_cast<int>(study.receivers.kind)],
-            study.receivers.positions.size(), study.suns.list.size(), study.suns.timed ? "hours" : "sums",
-            least, most, sum / weight, ms / 1e3);
+            study.receivers.positions.size(), study.suns.list.size(), sun::what_of(study), least, most,
+            sum / weight, ms / 1e3);
+  if (!options.model.empty() || !options.plan.empty())
+    print_out("colours: viridis, 0 to {:.4g} {}\n", chosen_scale(options, study).most, sun::what_of(study));
 }
 
 Expected<void> check_sun_outputs(const SunScene& scene, const SunOptions& options) {
@@ -139,7 +170,9 @@ Expected<void> check_sun_outputs(const SunScene& scene, const SunOptions& option
   return check_files_apart(
       inputs, [&](const std::function<Expected<void>(const OutputName&)>& use) -> Expected<void> {
         for (const auto& [option, file] :
-             {OutputName{"--csv", options.csv}, OutputName{"--json", options.json}}) {
+             {OutputName{"-o", options.model}, OutputName{"--csv", options.csv},
+              OutputName{"--json", options.json}, OutputName{"--png", options.plan},
+              OutputName{"--tiff", options.raster}}) {
           if (file.empty()) continue;
           if (auto used = use({option, file}); !used) return used;
         }
@@ -169,8 +202,8 @@ Expected<int> study_sun(const SunOptions& options) {
   }
   if (!hours) return tl::unexpected(hours.error());
   const sun::Study study{staged, frame, *receivers, *suns, *hours};
-  if (auto written = write_tables(options, study); !written) return tl::unexpected(written.error());
-  if (!options.quiet) print_summary(study, watch.lap_ms());
+  if (auto written = write_hours(options, study); !written) return tl::unexpected(written.error());
+  if (!options.quiet) print_summary(options, study, watch.lap_ms());
   return 0;
 }
 

@@ -1,13 +1,14 @@
 #include "options/sun_options.h"
 
 #include "base/fail.h"
-#include "formats/placement.h"
+#include "formats/format_list.h"
 #include "options/memory_option.h"
 #include "options/settings_names.h"
 
 namespace tenebra::viewer {
 namespace {
 
+constexpr const char* output_group = "What to write";
 constexpr const char* sun_group = "Suns";
 constexpr const char* where_group = "Where";
 
@@ -48,11 +49,37 @@ Expected<double> parse_height(const std::string& text) {
 Expected<double> parse_cell(const std::string& text) {
   return parse_number_within(text, 1e-3, 1e6, "0.001 to 1000000 metres");
 }
+Expected<int> parse_epsg(const std::string& text) {
+  const auto number = parse_count(text);
+  if (!number || *number < 1024 || *number > 32766)
+    return base::fail("found {}, expected the number of a projected system of EPSG's, like 25832", text);
+  return *number;
+}
 Expected<int> parse_per_face(const std::string& text) {
   const auto number = parse_count(text);
   if (!number || *number < 1 || *number > 65536)
     return base::fail("found {}, expected 1 to 65536 points", text);
   return *number;
+}
+
+void add_outputs(CLI::App& command, SunOptions& options) {
+  const AddedOption added[] = {
+      add_text(command, "--output,-o", options.model,
+               "The model in the colours of its hours, which are the\nattribute _SUN_HOURS of its vertices")
+          .type_name("FILE.glb"),
+      add_text(command, "--csv", options.csv, "A table").type_name("FILE.csv"),
+      add_text(command, "--json", options.json, "The same as JSON").type_name("FILE.json"),
+      add_text(command, "--png", options.plan, "A plan of the ground with scale and legend")
+          .type_name("FILE"),
+      add_text(command, "--tiff", options.raster, "The ground as a GeoTIFF in the file's coordinates")
+          .type_name("FILE"),
+      add_value(command, "--epsg", options.epsg, parse_epsg, "The coordinates' projection, for --tiff")
+          .type_name("N"),
+      add_value(command, "--full", options.full, parse_positive,
+                "Hours (or sum) that the brightest colour stands for; the same\n"
+                "for files that are compared [the most there is]")
+          .type_name("H")};
+  for (const AddedOption option : added) option.group(output_group);
 }
 
 void add_suns(CLI::App& command, SunOptions& options) {
@@ -140,7 +167,13 @@ Expected<void> check_where(const CLI::App& command, const SunOptions& options) {
     if ((ground || points) && was_given(command, name))
       return base::fail("{} is for faces, which {} takes the place of", name,
                         ground ? "--ground" : "--points");
-  if (was_given(command, "--cell") && !ground) return base::fail("--cell is for --ground");
+  for (const char* name : {"--cell", "--png", "--tiff"})
+    if (was_given(command, name) && !ground) return base::fail("{} is for --ground", name);
+  if (points && !options.model.empty())
+    return base::fail("-o is for faces and --ground, which have a shape; --csv and --json are for points");
+  if (was_given(command, "--epsg") && options.raster.empty()) return base::fail("--epsg is for --tiff");
+  if (was_given(command, "--full") && options.model.empty() && options.plan.empty())
+    return base::fail("--full is for -o and --png");
   if (was_given(command, "--per-face") && was_given(command, "--per-m2"))
     return base::fail("--per-face excludes --per-m2");
   return {};
@@ -149,9 +182,9 @@ Expected<void> check_where(const CLI::App& command, const SunOptions& options) {
 }  // namespace
 
 void add_sun_options(CLI::App& command, SunOptions& options) {
-  add_text(command, "SCENE", options.scene.file, "Scene file: .gltf .glb .aff .nff .obj").required();
-  add_text(command, "--csv", options.csv, "Table to write").type_name("FILE.csv");
-  add_text(command, "--json", options.json, "The same as JSON").type_name("FILE.json");
+  add_text(command, "SCENE", options.scene.file, "Scene file; tenebra info --formats lists what is read")
+      .required();
+  add_outputs(command, options);
   add_suns(command, options);
   add_where(command, options);
   add_value(command, "--timeout", options.timeout_s, parse_positive,
@@ -169,7 +202,8 @@ Expected<void> settle_sun_options(const CLI::App& command, SunOptions& options) 
   settle_memory(command, options.memory_mb, options.method);
   if (auto checked = check_suns(command, options); !checked) return checked;
   if (auto checked = check_where(command, options); !checked) return checked;
-  if (!formats::states_coordinates(options.scene.file) && !options.scene.import.placement.up)
+  const formats::FileFormat* format = formats::format_of(options.scene.file);  // null: the import says so
+  if (format != nullptr && !format->states_coordinates && !options.scene.import.placement.up)
     return base::fail(
         "{}: its format does not say which axis is up, expected --up-axis z (maps, most CAD) or --up-axis y",
         options.scene.file);

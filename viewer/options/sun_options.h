@@ -28,7 +28,9 @@ struct SunOptions {
   std::string points;  ///< a file; empty: not given
 
   MethodOptions method;
-  std::string csv, json;
+  std::string csv, json, model, plan, raster;  ///< files to write; empty: not asked for
+  double full = 0;                             ///< what the brightest colour stands for; 0: the most
+  int epsg = 0;                                ///< of the file's coordinates; 0: not known
   double timeout_s = std::numeric_limits<double>::infinity();
   std::optional<int> memory_mb;  ///< of the whole program
   bool quiet = false;

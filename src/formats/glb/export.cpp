@@ -30,7 +30,8 @@ bool fit_floats(const GlbJson& value) {
 
 }  // namespace
 
-GlbWriter::GlbWriter(const Scene& scene, double fps) : scene_(scene), fps_(fps) {}
+GlbWriter::GlbWriter(const Scene& scene, double fps, const GlbAdditions& additions)
+    : scene_(scene), fps_(fps), additions_(additions) {}
 
 std::string GlbWriter::write() {
   write_materials();
@@ -68,8 +69,13 @@ std::string GlbWriter::write() {
 
 Expected<std::vector<std::string>> export_glb(const Scene& scene, const std::filesystem::path& path,
                                               double fps) {
+  return export_glb(scene, path, fps, {});
+}
+
+Expected<std::vector<std::string>> export_glb(const Scene& scene, const std::filesystem::path& path,
+                                              double fps, const GlbAdditions& additions) {
   try {
-    GlbWriter writer(scene, fps);
+    GlbWriter writer(scene, fps, additions);
     if (auto written = io::write_file(path, writer.write()); !written) return tl::unexpected(written.error());
     return std::move(writer.losses);
   } catch (const ImportFailure& failure) {

@@ -158,7 +158,8 @@ int GlbBinary::add_vec3(const std::vector<glm::vec3>& values, bool bounds) {
   return add_floats(flat, 3, bounds);
 }
 
-void GlbWriter::write_primitives(const Mesh& mesh, GlbJson& written) {
+void GlbWriter::write_primitives(std::size_t index, GlbJson& written) {
+  const Mesh& mesh = scene_.meshes[index];
   const std::vector<glm::vec3> smooth = rest_normals(mesh), none;
   for (const auto& [key, part] : split(mesh, smooth)) {
     const auto [material, flat] = key;
@@ -166,6 +167,11 @@ void GlbWriter::write_primitives(const Mesh& mesh, GlbJson& written) {
     GlbJson primitive = {{"attributes", write_attributes(mesh, part, normals, binary_)},
                          {"indices", binary_.add(part.corners, 1, 5125, false)},
                          {"material", material}};
+    if (index < additions_.numbers.size() && !additions_.numbers[index].empty()) {
+      std::vector<float> numbers;
+      for (const std::uint32_t vertex : part.vertices) numbers.push_back(additions_.numbers[index][vertex]);
+      primitive["attributes"][additions_.attribute] = binary_.add_floats(numbers, 1, true);
+    }
     GlbJson targets = write_targets(mesh, part, normals, binary_);
     if (!targets.empty()) primitive["targets"] = std::move(targets);
     written["primitives"].push_back(std::move(primitive));
@@ -173,11 +179,12 @@ void GlbWriter::write_primitives(const Mesh& mesh, GlbJson& written) {
 }
 
 void GlbWriter::write_meshes() {
-  for (const Mesh& mesh : scene_.meshes) {
+  for (std::size_t i = 0; i < scene_.meshes.size(); ++i) {
+    const Mesh& mesh = scene_.meshes[i];
     mesh_of_.push_back(-1);
     if (mesh.triangles.empty()) continue;
     GlbJson written = {{"name", mesh.name.empty() ? mesh.source : mesh.name}};
-    write_primitives(mesh, written);
+    write_primitives(i, written);
     if (mesh.shapes.empty() && !mesh.default_weights.empty()) written["weights"] = mesh.default_weights;
     if (!mesh.casts_shadow) written["extras"]["casts_shadow"] = false;
     mesh_of_.back() = static_cast<int>(root_["meshes"].size());

@@ -87,6 +87,7 @@ void GlbWriter::write_nodes() {
   shown["extras"] = {{"ambient_light", to_json(scene_.ambient_light)},
                      {"background", to_json(scene_.background)}};
   if (scene_.transfer == Transfer::display) shown["extras"]["transfer"] = "display";
+  for (const auto& [name, text] : additions_.notes) shown["extras"][name] = text;
   root_["scenes"].push_back(std::move(shown));
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <tenebra/scene.h>
+#include "formats/glb_additions.h"
 #include "formats/import_failure.h"
 
 namespace tenebra::formats {
@@ -92,7 +93,7 @@ private:
 /// One scene on its way into a GLB.
 class GlbWriter {
 public:
-  GlbWriter(const Scene& scene, double fps);
+  GlbWriter(const Scene& scene, double fps, const GlbAdditions& additions);
 
   /// The file's bytes. Throws ImportFailure when a GLB cannot hold the scene.
   std::string write();
@@ -127,7 +128,7 @@ private:
 
   // meshes.cpp
   void write_meshes();
-  void write_primitives(const Mesh& mesh, GlbJson& written);
+  void write_primitives(std::size_t index, GlbJson& written);
 
   // nodes.cpp
   void find_hidden_nodes();
@@ -142,6 +143,7 @@ private:
 
   const Scene& scene_;
   double fps_;
+  const GlbAdditions& additions_;
   GlbJson root_ = empty_tables();
   GlbBinary binary_{root_, {}};
   std::vector<int> mesh_of_;   ///< mesh of the file for each of the scene; -1: no triangles

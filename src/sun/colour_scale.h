@@ -1,0 +1,25 @@
+// Numbers as colours: viridis, which grows evenly brighter, in print and for the colour-blind too.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "sun/hours_table.h"
+
+namespace tenebra::sun {
+
+/// From 0, dark blue, to `most`, yellow.
+struct ColourScale {
+  double most = 1;  ///< above 0; larger numbers have its colour
+
+  /// sRGB, 0 to 1.
+  glm::vec3 operator()(double value) const;
+};
+
+/// Hours or, where suns have no time, the sum that receiver `i` got.
+double value_of(const Study& study, std::size_t i);
+/// "hours" or "sum".
+const char* what_of(const Study& study);
+/// Up to the largest value; 1 where there is none above 0.
+ColourScale scale_of(const Study& study);
+
+}  // namespace tenebra::sun

@@ -1,0 +1,95 @@
+#include "sun/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tenebra::sun {
+namespace {
+
+struct Glyph {
+  char letter;
+  std::array<std::uint8_t, 7> rows;  ///< five bits each, the leftmost highest
+};
+constexpr Glyph glyphs[] = {
+    {'0', {0x0E, 0x11, 0x13, 0x15, 0x19, 0x11, 0x0E}}, {'1', {0x04, 0x0C, 0x04, 0x04, 0x04, 0x04, 0x0E}},
+    {'2', {0x0E, 0x11, 0x01, 0x02, 0x04, 0x08, 0x1F}}, {'3', {0x1F, 0x02, 0x04, 0x02, 0x01, 0x11, 0x0E}},
+    {'4', {0x02, 0x06, 0x0A, 0x12, 0x1F, 0x02, 0x02}}, {'5', {0x1F, 0x10, 0x1E, 0x01, 0x01, 0x11, 0x0E}},
+    {'6', {0x06, 0x08, 0x10, 0x1E, 0x11, 0x11, 0x0E}}, {'7', {0x1F, 0x01, 0x02, 0x04, 0x08, 0x08, 0x08}},
+    {'8', {0x0E, 0x11, 0x11, 0x0E, 0x11, 0x11, 0x0E}}, {'9', {0x0E, 0x11, 0x11, 0x0F, 0x01, 0x02, 0x0C}},
+    {'.', {0x00, 0x00, 0x00, 0x00, 0x00, 0x0C, 0x0C}}, {'-', {0x00, 0x00, 0x00, 0x1F, 0x00, 0x00, 0x00}},
+    {'+', {0x00, 0x04, 0x04, 0x1F, 0x04, 0x04, 0x00}}, {'e', {0x00, 0x00, 0x0E, 0x11, 0x1F, 0x10, 0x0E}},
+    {'h', {0x10, 0x10, 0x16, 0x19, 0x11, 0x11, 0x11}}, {'m', {0x00, 0x00, 0x1A, 0x15, 0x15, 0x11, 0x11}}};
+
+// Pixels.
+constexpr int edge = 16, bar_width = 20, dot = 2, letter_height = 7 * dot, letter_step = 6 * dot;
+constexpr int legend_width = 3 * edge / 2 + bar_width + 9 * letter_step, least_height = 160;
+constexpr glm::vec3 black(0);
+
+class Canvas {
+public:
+  Canvas(int width, int height)
+      : image_{width, height, 3, std::vector<std::uint8_t>(std::size_t{3} * width * height, 255)} {}
+  void fill(int x, int y, int width, int height, const glm::vec3& colour) {
+    for (int row = y; row < y + height; ++row)
+      for (int column = x; column < x + width; ++column)
+        for (int c = 0; c < 3; ++c)
+          image_.pixels[3 * (static_cast<std::size_t>(row) * image_.width + column) + c] =
+              static_cast<std::uint8_t>(std::lround(255 * colour[c]));
+  }
+  void write(int x, int y, const std::string& text) {
+    for (const char letter : text) {
+      for (const Glyph& glyph : glyphs)
+        for (int bit = 0; glyph.letter == letter && bit < 35; ++bit)
+          if (glyph.rows[static_cast<std::size_t>(bit / 5)] >> (4 - bit % 5) & 1)
+            fill(x + bit % 5 * dot, y + bit / 5 * dot, dot, dot, black);
+      x += letter_step;
+    }
+  }
+  io::Image8 take() { return std::move(image_); }
+
+private:
+  io::Image8 image_;
+};
+
+/// The largest of 1, 2, 5, 10, 20 .. times a power of ten that is at most `length`.
+double round_length(double length) {
+  const double ten = std::pow(10, std::floor(std::log10(length)));
+  return length >= 5 * ten ? 5 * ten : length >= 2 * ten ? 2 * ten : ten;
+}
+
+void draw_legend(Canvas& canvas, int x, int height, const Study& study, const ColourScale& scale) {
+  for (int row = 0; row < height; ++row)
+    canvas.fill(x, edge + row, bar_width, 1, scale(scale.most * (1 - (row + 0.5) / height)));
+  constexpr int labels = 4;
+  for (int i = 0; i <= labels; ++i) {
+    const int y = edge + (height - letter_height) * (labels - i) / labels;
+    canvas.write(x + bar_width + edge / 2, y,
+                 fmt::format("{:.3g}{}", scale.most * i / labels, study.suns.timed ? " h" : ""));
+  }
+}
+
+}  // namespace
+
+io::Image8 plan_of(const Study& study, const ColourScale& scale) {
+  const Grid& grid = study.receivers.grid;
+  const int side = std::clamp(800 / std::max(grid.columns, grid.rows), 1, 32);  // of a cell
+  const int width = grid.columns * side, height = std::max(grid.rows * side, least_height);
+  Canvas canvas(edge + width + legend_width, 3 * edge + height + letter_height);
+  for (int row = 0; row < grid.rows; ++row)
+    for (int column = 0; column < grid.columns; ++column)
+      canvas.fill(edge + column * side, edge + row * side, side, side,
+                  scale(value_of(study, static_cast<std::size_t>(row) * grid.columns + column)));
+  draw_legend(canvas, edge + width + edge, std::min(height, 400), study, scale);
+  const double metres = round_length(std::max(grid.columns * grid.cell_m / 3, grid.cell_m));
+  const int length = std::max(1, static_cast<int>(std::lround(metres / grid.cell_m * side)));
+  const int y = 2 * edge + height;
+  canvas.fill(edge, y + letter_height / 2 - 1, length, 3, black);
+  for (const int x : {edge, edge + length - 2}) canvas.fill(x, y, 2, letter_height, black);
+  canvas.write(edge + length + edge / 2, y, fmt::format("{:.6g} m", metres));
+  return canvas.take();
+}
+
+}  // namespace tenebra::sun

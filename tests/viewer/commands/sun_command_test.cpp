@@ -1,0 +1,81 @@
+// tenebra sun: from a map's OBJ to each kind of file, and what is asked for wrongly.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "formats/import_scene.h"
+#include "io/image.h"
+#include "io/input_file.h"
+#include "viewer/viewer_test_scene.h"
+
+namespace tenebra::testing {
+namespace {
+
+/// A floor and a wall in map coordinates.
+std::string write_map(const TemporaryFolder& folder) {
+  const std::string file = folder / "map.obj";
+  std::ofstream(file) << "v 690000 5330000 500\nv 690020 5330000 500\nv 690020 5330020 500\n"
+                         "v 690000 5330020 500\nv 690000 5330010 500\nv 690020 5330010 500\n"
+                         "v 690020 5330010 504\nv 690000 5330010 504\nf 1 2 3 4\nf 5 6 7 8\n";
+  return file;
+}
+
+std::vector<std::string> asked(const std::string& scene, std::vector<std::string> more) {
+  std::vector<std::string> all{"sun",       scene,   "--up-axis",  "z",      "--place",
+                               "48.1,11.6", "--day", "2026-06-21", "--step", "60"};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+TEST(SunCommand, FacesAsColoursAndTables) {
+  const TemporaryFolder folder;
+  const auto result =
+      tenebra(asked(write_map(folder), {"-o", folder / "hours.glb", "--csv", folder / "hours.csv", "--json",
+                                        folder / "hours.json", "--full", "16"}));
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_TRUE(result.output.starts_with("4 faces, 64 points, 16 suns, hours ")) << result.output;
+  EXPECT_NE(result.output.find("colours: viridis, 0 to 16 hours"), std::string::npos) << result.output;
+  const auto model = formats::import_scene(folder / "hours.glb");
+  ASSERT_TRUE(model.has_value()) << model.error().message;
+  EXPECT_EQ(model->meshes.at(0).colors.size(), 12u);
+  const std::string csv = io::read_file(folder / "hours.csv", std::size_t{1} << 24).value();
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5);
+  EXPECT_TRUE(std::filesystem::exists(folder / "hours.json"));
+}
+
+TEST(SunCommand, TheGroundAsAPlanAndARaster) {
+  const TemporaryFolder folder;
+  const auto result =
+      tenebra(asked(write_map(folder), {"--ground", "501", "--cell", "5", "--png", folder / "plan.png",
+                                        "--tiff", folder / "plan.tif", "--epsg", "25832"}));
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_TRUE(result.output.starts_with("16 cells, ")) << result.output;
+  EXPECT_TRUE(io::read_png(folder / "plan.png").has_value());
+  EXPECT_TRUE(io::read_file(folder / "plan.tif", std::size_t{1} << 24).value().starts_with("II*"));
+}
+
+TEST(SunCommand, SaysWhatIsWrong) {
+  const TemporaryFolder folder;
+  const std::string map = write_map(folder), csv = folder / "hours.csv";
+  const std::pair<std::vector<std::string>, const char*> cases[] = {
+      {{"sun", map, "--up-axis", "z", "--csv", csv}, "found no suns"},
+      {{"sun", map, "--place", "48,11", "--day", "2026-06-21"}, "which axis is up"},
+      {asked(map, {"--place", "100,11"}), "found the latitude 100"},
+      {asked(map, {"--day", "2026-02-30"}), "2026-02-30"},
+      {asked(map, {"--png", folder / "plan.png"}), "--png is for --ground"},
+      {asked(map, {"--ground", "0", "--epsg", "25832"}), "--epsg is for --tiff"},
+      {asked(map, {"--full", "3"}), "--full is for -o and --png"},
+      {asked(map, {"--csv", map}), "map.obj"},
+      {asked(map, {"--node", "tower"}), "found no node called tower"}};
+  for (const auto& [arguments, sentence] : cases) {
+    const auto result = tenebra(arguments);
+    EXPECT_NE(result.exit_code, 0) << sentence;
+    EXPECT_NE(result.errors.find(sentence), std::string::npos) << result.errors;
+  }
+  EXPECT_FALSE(std::filesystem::exists(csv));
+}
+
+}  // namespace
+}  // namespace tenebra::testing
