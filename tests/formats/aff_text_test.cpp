@@ -201,33 +201,89 @@ TEST_F(AffText, AnimatedTrianglesAreLinearAndGroupedByTheirTimes) {
 TEST_F(AffText, RefusesWhatItCannotReadInOneSentence) {
   expect_refused("q 1 2", "a.aff:1: found 'q'");
   expect_refused("\n\nb 1 x", "a.aff:3: found 'x'");
-  expect_refused("b 1 nan 0", "'nan'");
-  expect_refused("b 1 inf 0", "'inf'");
+  expect_refused("p 3 0 0 0 nan 0 0 0 1 0", "'nan'");
+  expect_refused("l 1 inf 0", "'inf'");
   expect_refused("b 1e999 0 0", "'1e999'");
   expect_refused("b 1 2", "the end of the file");
-  expect_refused("p 2 0 0 0 1 1 1", "2 corners");
+  expect_refused("p 2.5 0 0 0 1 1 1", "2.5");
+  expect_refused("p 2 0 0 0 1 1", "the end of the file");
   expect_refused("p 2000000000 0 0 0", "the end of the file");
   expect_refused("p 99999999999999999999 0 0 0", "99999999999999999999");
   expect_refused("m vertices -1", "-1");
   expect_refused("m vertices 2147483647 0 0 0", "the end of the file");
   expect_refused("m vertices 1 0 0 0 triangles 1 0 0 1", "found 1");
-  expect_refused("m vertices 1 0 0 0 normals 0 triangles 1 0 0 0 0 0 0", "below 0");
   expect_refused("m vertices 1 0 0 0 faces", "'triangles'");
   expect_refused("xs 1 1 1 0 0 0 0 0 0 0 {\n", "opened at a.aff:1");
   expect_refused("}", "'}'");
   expect_refused("k a { transl 3 0 0 0 0 0 0 0 }", "at least 4");
   expect_refused("k a { visibility 1 0 2 }", "0 or 1");
-  expect_refused("k a { visibility 1 0 1 visibility 1 0 1 }", "second visibility");
-  expect_refused("a 0 1 0", "0 frames");
-  expect_refused("a 1 0 5", "an end after");
-  expect_refused("tpa 0", "0 keys");
-  expect_refused("c 0 0 0 1 0 0 0 1", "one point");
+  expect_refused("c 0 0 0 1 0 0 0 2", "one point");
   expect_refused("c 0 0 0 1 0 1 0 -1", "radii");
-  expect_refused("v from 0 0 0 at 0 0 1 up 0 1 0 angle 180 hither 1 resolution 1 1", "angle");
   expect_refused("\x01\xff", "\\x01\\xff");
   std::string deep;
   for (int i = 0; i < 2000; ++i) deep += "x a {";
   expect_refused(deep, "1024");
+}
+
+TEST_F(AffText, FaultsThatLeaveTheGeometryCertainAreWarnedOf) {
+  const auto faulty = [&](const std::string& text, const std::string& sentence) {
+    Scene s = scene(text + "\n" + triangle);
+    EXPECT_EQ(s.warnings, std::vector<std::string>{"a.aff:1: found " + sentence}) << text;
+    EXPECT_EQ(frame_of(s).triangles.back(), glm::uvec3(0, 1, 2) + glm::uvec3(frame_of(s).triangles.back().x));
+    return s;
+  };
+  EXPECT_EQ(faulty("b 1 -NaN 0", "'-NaN', expected a value of a colour; made 0.").background,
+            glm::vec3(1, 0, 0));
+  EXPECT_EQ(faulty("l 0 9 0 1 Infinity 1", "'Infinity', expected a value of the light's colour; made 0.")
+                .lights.at(0)
+                .color,
+            glm::vec3(1, 0, 1));
+  faulty("fm 0 0 0 inf 1 1 0 0 0 1 0 1", "'inf', expected one of a material's 12 numbers; made 0.");
+  faulty("f 1 1 1 nan 0 0 0 1", "'nan', expected one of a material's 8 numbers; made 0.");
+  EXPECT_EQ(faulty("p 2 0 0 0 1 1 1", "2 corners, expected at least 3; left out.").meshes.size(), 1u);
+  faulty("pp 1 0 0 0 0 0 1", "1 corners, expected at least 3; left out.");
+  faulty("tpa 0", "0 keys, expected at least one; left out.");
+  faulty("c 0 0 0 1 0 0 0 1",
+         "a cone's base and apex at one point, expected two points; it is a line, left out.");
+  EXPECT_TRUE(
+      faulty("a 0 1 0", "0 frames, expected at least one frame; the rate says how many.").clips.at(0).end_s ==
+      1);
+  EXPECT_TRUE(
+      faulty("a 1 0 5", "0, expected an end after the animation's start; the keys say both.").clips.empty());
+  faulty("v from 0 0 0 at 0 0 1 up 0 1 0 angle 180 hither 1 resolution -1 1",
+         "180, expected an angle between 0 and 180 degrees; made 45.");
+}
+
+TEST_F(AffText, FaultyNormalsAreTheFacesAndFaultyCoordinatesACorner) {
+  const Scene normals = scene("m vertices 3 0 0 0 1 0 0 0 1 0 normals 1 0 0 nan triangles 1 0 1 2 0 0 7");
+  ASSERT_EQ(normals.warnings.size(), 2u);
+  EXPECT_EQ(normals.warnings[1], "a.aff:1: found 7, expected a normal index below 1; left out.");
+  EXPECT_EQ(normals.meshes.at(0).normals.at(0), glm::vec3(0));
+  EXPECT_EQ(normals.meshes[0].triangles.size(), 1u);
+  const Scene corner = scene("m vertices 3 0 0 0 1 0 0 0 1 0 texturecoords 0 t.ppm triangles 1 0 1 2 0 0 0");
+  EXPECT_EQ(corner.meshes.at(0).triangles.size(), 1u);
+}
+
+TEST_F(AffText, OfTwoTracksOfAKindTheLastCountsAndNoKeysAreNone) {
+  const Scene s = scene("k a { visibility 1 0 1 visibility 1 0 0 transl 0 }\nx a { " + triangle + "}");
+  ASSERT_EQ(s.warnings.size(), 2u);
+  EXPECT_EQ(
+      s.warnings[0],
+      "a.aff:1: found a second visibility, expected each kind of key once in a block; the last is used.");
+  EXPECT_EQ(s.warnings[1], "a.aff:1: found 0, expected at least 4 keys; left out.");
+  EXPECT_EQ(frame_of(s, 1).triangles.at(0), glm::uvec3(0));
+}
+
+TEST_F(AffText, MarksOfEditorsAreNoWordsAndWholeNumbersMayHaveAPoint) {
+  EXPECT_EQ(scene("\xEF\xBB\xBFp 3.0  0 0 0  1 0 0  0 1 0\r\n\x1a").meshes.at(0).triangles.size(), 1u);
+}
+
+TEST_F(AffText, OfManyFaultsTheFirstAreNamed) {
+  std::string text;
+  for (int i = 0; i < 30; ++i) text += "b nan 1 1\n";
+  const Scene s = scene(text);
+  ASSERT_EQ(s.warnings.size(), 21u);
+  EXPECT_EQ(s.warnings[20], "a.aff: 10 more faults that leave the geometry certain.");
 }
 
 TEST_F(AffText, IncludesStayInTheFolderAndEnd) {

@@ -85,10 +85,19 @@ void AffReader::name_missing_keys() {
                                         all ? "" : ", ..."));
 }
 
+void AffReader::name_faults() {
+  const std::size_t more = faults_.count - faults_.first.size();
+  scene_.warnings.insert(scene_.warnings.end(), faults_.first.begin(), faults_.first.end());
+  if (more > 0)
+    scene_.warnings.push_back(
+        fmt::format("{}: {} more faults that leave the geometry certain.", scene_.name, more));
+}
+
 void AffReader::finish() {
   for (const Animated& a : animated_) add_channels(a.node, a.name, a.translation_only);
   add_camera();
   name_missing_keys();
+  name_faults();
   const bool moves =
       !clip_.channels.empty() || std::any_of(scene_.meshes.begin(), scene_.meshes.end(),
                                              [](const Mesh& mesh) { return !mesh.shapes.empty(); });

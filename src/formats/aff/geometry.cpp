@@ -23,18 +23,14 @@ glm::vec3 read_position(AffLexer& in) {
 
 /// A stored normal may have any length. Zero stays zero: the face normal.
 glm::vec3 read_normal(AffLexer& in) {
-  const double x = in.number(normal_coordinate);
-  const double y = in.number(normal_coordinate);
-  const glm::dvec3 n(x, y, in.number(normal_coordinate));
+  const glm::dvec3 n = in.look_vector(normal_coordinate);
   const double length = glm::length(n);
   return length > 0.0 && std::isfinite(length) ? glm::vec3(n / length) : glm::vec3(0.0f);
 }
 
 /// Not normalised: the keys of animated triangles interpolate it as written.
 glm::vec3 read_raw_normal(AffLexer& in) {
-  const float x = in.real(normal_coordinate);
-  const float y = in.real(normal_coordinate);
-  return {x, y, in.real(normal_coordinate)};
+  return glm::vec3(in.look_vector(normal_coordinate));
 }
 
 template <class Read>
@@ -49,8 +45,8 @@ std::vector<glm::vec3> read_list(AffLexer& in, std::string_view what, Read read)
 /// The first row of a picture is at v = 0, as in glTF: BART's paintings and its garden hang upright so, and
 /// the garden agrees with the published picture.
 glm::vec2 read_texture_coordinates(AffLexer& in) {
-  const float u = in.real("a texture coordinate");
-  return {u, in.real("a texture coordinate")};
+  const double u = in.look("a texture coordinate");
+  return {u, in.look("a texture coordinate")};
 }
 
 /// The tables of an `m`, each with its own indices.
@@ -86,10 +82,11 @@ MeshTables read_tables(AffLexer& in) {
   return tables;
 }
 
-glm::uvec3 read_indices(AffLexer& in, std::size_t size, std::string_view what) {
-  const std::uint32_t a = in.index(size, what);
-  const std::uint32_t b = in.index(size, what);
-  return {a, b, in.index(size, what)};
+glm::uvec3 read_indices(AffLexer& in, std::size_t size, std::string_view what,
+                        std::uint32_t (AffLexer::*read)(std::size_t, std::string_view)) {
+  const std::uint32_t a = (in.*read)(size, what);
+  const std::uint32_t b = (in.*read)(size, what);
+  return {a, b, (in.*read)(size, what)};
 }
 
 /// Corners of the triangles: indices by kind; those of kinds that the mesh lacks are empty.
@@ -99,7 +96,9 @@ struct Corners {
   std::vector<glm::uvec3> texture_coordinates;
 };
 
-Corners read_triangles(AffLexer& in, const MeshTables& tables) {
+/// Indices of normals and texture coordinates that the tables do not have are those of an entry of zeros that
+/// is added to them: the face's normal, a picture's corner.
+Corners read_triangles(AffLexer& in, MeshTables& tables) {
   in.expect("triangles");
   const std::size_t count = in.count("the number of triangles");
   const std::size_t numbers = 3 + (tables.has_normals ? 3 : 0) + (tables.has_texture ? 3 : 0);
@@ -109,15 +108,19 @@ Corners read_triangles(AffLexer& in, const MeshTables& tables) {
   if (tables.has_normals) corners.normals.reserve(room);
   if (tables.has_texture) corners.texture_coordinates.reserve(room);
   for (std::size_t t = 0; t < count; ++t) {
-    corners.positions.push_back(read_indices(in, tables.positions.size(), "a vertex index"));
+    corners.positions.push_back(
+        read_indices(in, tables.positions.size(), "a vertex index", &AffLexer::index));
     if (tables.has_normals) {
-      corners.normals.push_back(read_indices(in, tables.normals.size(), "a normal index"));
+      corners.normals.push_back(
+          read_indices(in, tables.normals.size(), "a normal index", &AffLexer::look_index));
     }
     if (tables.has_texture) {
       corners.texture_coordinates.push_back(
-          read_indices(in, tables.texture_coordinates.size(), "a texture index"));
+          read_indices(in, tables.texture_coordinates.size(), "a texture index", &AffLexer::look_index));
     }
   }
+  tables.normals.emplace_back(0.0f);
+  tables.texture_coordinates.emplace_back(0.0f);
   return corners;
 }
 
@@ -231,18 +234,24 @@ void AffReader::append_polygon(AffLexer& in, std::string source, std::size_t cor
          corners * (2 * sizeof(glm::vec3) + sizeof(glm::vec2) + sizeof(glm::uvec3) + sizeof(std::uint32_t)));
 }
 
+std::size_t AffReader::read_corner_count(AffLexer& in, std::size_t numbers_a_corner) {
+  const std::size_t corners = in.count("the number of corners");
+  if (corners >= 3) return corners;
+  in.warn(fmt::format("{} corners", corners), "at least 3", "left out");
+  for (std::size_t i = 0; i < corners * numbers_a_corner; ++i) in.look("a number of a corner");
+  return 0;
+}
+
 void AffReader::read_polygon(AffLexer& in) {
   std::string source = in.place();
-  const std::size_t corners = in.count("the number of corners");
-  if (corners < 3) in.fail(fmt::format("{} corners", corners), "at least 3");
-  append_polygon(in, std::move(source), corners, false, nullptr);
+  if (const std::size_t corners = read_corner_count(in, 3); corners > 0)
+    append_polygon(in, std::move(source), corners, false, nullptr);
 }
 
 void AffReader::read_polygon_with_normals(AffLexer& in) {
   std::string source = in.place();
-  const std::size_t corners = in.count("the number of corners");
-  if (corners < 3) in.fail(fmt::format("{} corners", corners), "at least 3");
-  append_polygon(in, std::move(source), corners, true, nullptr);
+  if (const std::size_t corners = read_corner_count(in, 6); corners > 0)
+    append_polygon(in, std::move(source), corners, true, nullptr);
 }
 
 void AffReader::read_textured_triangle(AffLexer& in) {
@@ -260,7 +269,7 @@ void AffReader::read_textured_triangle_with_normals(AffLexer& in) {
 void AffReader::read_animated_triangle(AffLexer& in) {
   std::string source = in.place();
   const std::size_t count = in.count("the number of keys");
-  if (count == 0) in.fail("0 keys", "at least one");
+  if (count == 0) return in.warn("0 keys", "at least one", "left out");
   std::vector<Mesh::Shape> keys;
   for (std::size_t i = 0; i < count; ++i) {
     Mesh::Shape& key = keys.emplace_back();
@@ -308,6 +317,8 @@ void AffReader::read_cone(AffLexer& in) {
   for (double& number : n) number = in.number("one of a cone's 8 numbers");
   const glm::dvec3 base(n[0], n[1], n[2]), apex(n[4], n[5], n[6]);
   const double base_radius = n[3], apex_radius = n[7];
+  if (base == apex && std::abs(base_radius) == std::abs(apex_radius))
+    return in.warn("a cone's base and apex at one point", "two points", "it is a line, left out");
   if (base == apex) in.fail("a cone's base and apex at one point", "two points");
   if (base_radius * apex_radius < 0.0) in.fail("radii of different signs", "both of one sign");
   const int sides = std::clamp(options_.cone_sides, 3, 1 << 16);

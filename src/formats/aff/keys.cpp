@@ -14,9 +14,11 @@ namespace {
 constexpr std::size_t least_spline_keys = 4;
 constexpr std::size_t least_flags = 1;
 
+/// None: no key drives anything.
 std::size_t key_count(AffLexer& in, std::size_t least) {
   const std::size_t count = in.count("the number of keys");
-  if (count < least) in.fail(fmt::to_string(count), fmt::format("at least {} keys", least));
+  if (count == 0) in.warn("0", fmt::format("at least {} keys", least), "left out");
+  if (count > 0 && count < least) in.fail(fmt::to_string(count), fmt::format("at least {} keys", least));
   return count;
 }
 
@@ -37,9 +39,10 @@ void append_rotation(AffLexer& in, Track& track) {
   track.values.insert(track.values.end(), {v.x, v.y, v.z, std::cos(half_angle)});
 }
 
-Track read_spline(AffLexer& in, int components) {
+std::optional<Track> read_spline(AffLexer& in, int components) {
   constexpr std::size_t least_numbers_a_key = 7;
   const std::size_t count = key_count(in, least_spline_keys);
+  if (count == 0) return std::nullopt;
   Track track = start_track(components, std::min(count, in.most_numbers_left() / least_numbers_a_key));
   for (std::size_t i = 0; i < count; ++i) {
     track.times_s.push_back(in.number("the time of a key"));
@@ -55,8 +58,9 @@ Track read_spline(AffLexer& in, int components) {
 }
 
 /// Visible before the first key, then each key's flag from its time on.
-Track read_visibility(AffLexer& in) {
+std::optional<Track> read_visibility(AffLexer& in) {
   const std::size_t count = key_count(in, least_flags);
+  if (count == 0) return std::nullopt;
   std::vector<std::pair<double, double>> flags;
   flags.reserve(std::min(count, in.most_numbers_left() / 2));
   for (std::size_t i = 0; i < count; ++i) {
@@ -103,7 +107,8 @@ AffKeys read_key_block(AffLexer& in) {
                                        : kind == "visibility" ? &keys.visibility
                                                               : nullptr;
     if (!slot) in.fail(quote_word(kind), "transl, rot, scale, visibility or '}'");
-    if (*slot) in.fail(fmt::format("a second {}", kind), "each kind of key once in a block");
+    if (*slot)
+      in.warn(fmt::format("a second {}", kind), "each kind of key once in a block", "the last is used");
     *slot = kind == "visibility" ? read_visibility(in) : read_spline(in, kind == "rot" ? 4 : 3);
   }
   in.expect("}");

@@ -22,9 +22,7 @@ constexpr std::uint64_t free_scene_bytes = 160u << 20;
 constexpr std::uint64_t scene_per_byte = 14;
 
 glm::vec3 read_color(AffLexer& in) {
-  const float r = in.real("a colour's red");
-  const float g = in.real("a colour's green");
-  return {r, g, in.real("a colour's blue")};
+  return glm::vec3(in.look_vector("a value of a colour"));
 }
 
 }  // namespace
@@ -77,7 +75,7 @@ Scene AffReader::read(const std::filesystem::path& path) {
 }
 
 void AffReader::read_file(AffFile& file) {
-  AffLexer in(file.text, file.name);
+  AffLexer in(file.text, file.name, faults_);
   file.open = true;
   open_files_.push_back(&file);
   const std::size_t outer_first_block = first_block_of_file_;

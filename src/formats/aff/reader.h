@@ -56,6 +56,8 @@ private:
   void read_animated_triangle(AffLexer& in);
   void read_cone(AffLexer& in);
   void read_sphere(AffLexer& in);
+  /// The number of corners; 0, with a fault, where they enclose nothing: they are read then.
+  std::size_t read_corner_count(AffLexer& in, std::size_t numbers_a_corner);
   /// `texture`: the picture that the corners have coordinates of, or nullptr.
   void append_polygon(AffLexer& in, std::string source, std::size_t corners, bool normals,
                       const std::string* texture);
@@ -72,6 +74,7 @@ private:
   int track_of(const std::string& name, ChannelPath path, const Track& track);
   void bound_interval();
   void name_missing_keys();
+  void name_faults();
 
   int add_node(AffLexer& in, Node node);
   /// Counts `bytes` of the scene; fails where the file's include directives make the scene larger than
@@ -99,6 +102,7 @@ private:
 
   ImportOptions options_;
   AffFiles files_;
+  AffFaults faults_;
   Scene scene_;
   std::vector<AffFile*> open_files_;
   std::vector<Block> blocks_;

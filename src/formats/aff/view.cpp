@@ -39,15 +39,18 @@ void AffReader::read_view(AffLexer& in) {
   const glm::dvec3 up = read_named_vector(in, "up");
   view.node.rotation = glm::quat_cast(scene::view_basis(at - view.node.translation, up));
   in.expect("angle");
-  const double angle = in.number("the view's angle in degrees");
-  if (!(angle > 0.0 && angle < 180.0)) in.fail(fmt::to_string(angle), "an angle between 0 and 180 degrees");
+  double angle = in.number("the view's angle in degrees");
+  if (!(angle > 0.0 && angle < 180.0)) {
+    in.warn(fmt::to_string(angle), "an angle between 0 and 180 degrees", "made 45");
+    angle = 45;
+  }
   view.camera.vertical_fov_rad = static_cast<float>(glm::radians(angle));
   in.expect("hither");
   const double hither = in.number("the near distance");
   view.camera.near_m = static_cast<float>(hither < least_near ? 1.0 : hither);
   in.expect("resolution");
-  const std::size_t width = in.count("the picture's width");
-  const std::size_t height = in.count("the picture's height");
+  const std::int64_t width = in.integer("the picture's width");
+  const std::int64_t height = in.integer("the picture's height");
   if (width > 0 && height > 0) view.camera.aspect = static_cast<float>(width) / static_cast<float>(height);
   view_ = std::move(view);
 }
@@ -57,7 +60,7 @@ void AffReader::add_light(AffLexer& in, Node node) {
   Light light;
   light.name = node.name;
   light.falloff = Falloff::none;
-  if (in.next_is_number()) light.color = glm::vec3(in.vector("a value of the light's colour"));
+  if (in.next_is_look()) light.color = glm::vec3(in.look_vector("a value of the light's colour"));
   node.light = static_cast<int>(scene_.lights.size());
   charge(in, 2 * sizeof(Light));
   scene_.lights.push_back(std::move(light));
@@ -91,7 +94,7 @@ void AffReader::read_material(AffLexer& in) {
   Material material;
   material.name = in.place();
   std::array<double, 12> numbers{};
-  for (double& number : numbers) number = in.number("one of a material's 12 numbers");
+  for (double& number : numbers) number = in.look("one of a material's 12 numbers");
   material.ambient = color(numbers, 0);
   material.base_color = color(numbers, 3);
   set_gloss(numbers, material);
@@ -104,7 +107,7 @@ void AffReader::read_fill(AffLexer& in) {
   Material material;
   material.name = in.place();
   std::array<double, 8> f{};
-  for (double& number : f) number = in.number("one of a material's 8 numbers");
+  for (double& number : f) number = in.look("one of a material's 8 numbers");
   const glm::dvec3 fill(f[0], f[1], f[2]);
   const glm::dvec3 ambient = ambient_share * fill, diffuse = f[3] * fill;
   material.ambient = glm::vec3(ambient);
@@ -116,11 +119,13 @@ void AffReader::read_fill(AffLexer& in) {
 }
 
 void AffReader::read_animation(AffLexer& in) {
-  clip_.start_s = in.number("the animation's start");
-  clip_.end_s = in.number("the animation's end");
-  if (clip_.end_s < clip_.start_s) in.fail(fmt::to_string(clip_.end_s), "an end after the animation's start");
+  const double start = in.number("the animation's start"), end = in.number("the animation's end");
   const std::size_t frames = in.count("the animation's number of frames");
-  if (frames == 0) in.fail("0 frames", "at least one frame");
+  if (end < start)
+    return in.warn(fmt::to_string(end), "an end after the animation's start", "the keys say both");
+  if (frames == 0) in.warn("0 frames", "at least one frame", "the rate says how many");
+  clip_.start_s = start;
+  clip_.end_s = end;
   clip_.frame_count = static_cast<int>(frames);
   interval_stated_ = true;
 }
