@@ -96,12 +96,12 @@ TEST_F(ObjLooks, NamesOfOtherMachinesAreFoundByTheirLastPart) {
 }
 
 TEST_F(ObjLooks, WhatIsMissingOrNotUsedIsNamed) {
-  const Scene scene = read("newmtl m\nKd 1 0 0\nmap_Kd none.png\nmap_Pr b.png\n", textured_square);
+  const Scene scene = read("newmtl m\nKd 1 0 0\nmap_Kd none.png\nmap_Ps b.png\n", textured_square);
   ASSERT_EQ(scene.warnings.size(), 1u);
   EXPECT_NE(scene.warnings[0].find("none.png"), std::string::npos) << scene.warnings[0];
   EXPECT_EQ(scene.materials[0].base_color, glm::vec3(1, 0, 0));
   ASSERT_EQ(scene.unused.size(), 1u);
-  EXPECT_EQ(scene.unused[0].name, "map_Pr");
+  EXPECT_EQ(scene.unused[0].name, "map_Ps");
 }
 
 TEST_F(ObjLooks, OfManyKindsThatAreNotUsedTheNamedOnesAreCounted) {
@@ -153,6 +153,34 @@ TEST_F(ObjLooks, MapsOfNormalsAlphaAndGlossAreRead) {
   EXPECT_EQ(cut.materials[0].alpha_mode, AlphaMode::mask);
   EXPECT_EQ(cut.images.at(static_cast<std::size_t>(cut.materials[0].base_color_map.image)).rgba.at(3), 255);
   EXPECT_EQ(cut.images.at(static_cast<std::size_t>(cut.materials[0].base_color_map.image)).rgba.at(7), 0);
+}
+
+TEST_F(ObjLooks, PicturesOfRoughnessAndMetalTakeThePlaceOfTheirNumbers) {
+  write_text(folder_ / "rough.png", png_of({1, 1, 1, {40}}));
+  write_text(folder_ / "metal.png", png_of({1, 1, 1, {200}}));
+  const auto looks = [&](const std::string& lines, glm::ivec2 green_blue) {
+    const Scene scene = read("newmtl m\n" + lines, textured_square);
+    const Material& material = scene.materials.at(0);
+    EXPECT_EQ(material.model, SurfaceModel::metallic_roughness);
+    const auto& rgba = scene.images.at(static_cast<std::size_t>(material.metallic_roughness_map.image)).rgba;
+    EXPECT_EQ(glm::ivec2(rgba[1], rgba[2]), green_blue) << lines;
+    EXPECT_TRUE(scene.unused.empty());
+    return glm::vec2(material.roughness, material.metallic);
+  };
+  EXPECT_EQ(looks("Pr 0.5\nPm 0\nmap_Pr rough.png\nmap_Pm metal.png\n", {40, 200}), glm::vec2(1, 1));
+  EXPECT_EQ(looks("map_Pr rough.png\n", {40, 255}), glm::vec2(1, 0));
+  EXPECT_EQ(looks("Pr 0.25\nmap_Pm metal.png\n", {255, 200}), glm::vec2(0.25f, 1));
+  write_text(folder_ / "packed.png", png_of({1, 1, 3, {9, 40, 200}}));
+  looks("map_Pr packed.png\nmap_Pm packed.png\n", {40, 200});
+  const Scene apart =
+      read("newmtl m\nPm 0.75\nmap_Pr rough.png\nmap_Pm -s 2 2 1 metal.png\n", textured_square);
+  EXPECT_EQ(apart.materials.at(0).metallic, 0.75f);
+  EXPECT_EQ(apart.warnings,
+            std::vector<std::string>{"material 'm': found map_Pm with other options than map_Pr, expected "
+                                     "the same; it is not used."});
+  const Scene missing = read("newmtl m\nPr 0.5\nmap_Pr none.png\n", textured_square);
+  EXPECT_EQ(missing.materials.at(0).roughness, 0.5f);
+  EXPECT_FALSE(missing.materials[0].metallic_roughness_map);
 }
 
 TEST_F(ObjLooks, ColoursOfVerticesAreRead) {

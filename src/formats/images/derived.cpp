@@ -1,6 +1,7 @@
 #include "formats/images/derived.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 
@@ -20,6 +21,25 @@ bool has_alpha(const TextureImage& image) {
   for (std::size_t i = 3; i < image.rgba.size(); i += 4)
     if (image.rgba[i] != 255) return true;
   return false;
+}
+
+/// A picture named as `a`, as wide and high as the larger in each direction: `join` makes a pixel of four
+/// values from the nearest of both.
+template <class Join>
+TextureImage joined(const TextureImage& a, const TextureImage& b, Join join) {
+  TextureImage both{a.name, std::max(a.width, b.width), std::max(a.height, b.height), {}};
+  both.rgba.reserve(4 * static_cast<std::size_t>(both.width) * static_cast<std::size_t>(both.height));
+  const auto at = [&](const TextureImage& image, int x, int y) {
+    const auto scaled = [](int i, int size, int of) { return static_cast<int>(std::int64_t{i} * size / of); };
+    return pixel(image, scaled(x, image.width, both.width), scaled(y, image.height, both.height));
+  };
+  for (int y = 0; y < both.height; ++y) {
+    for (int x = 0; x < both.width; ++x) {
+      const std::array<std::uint8_t, 4> values = join(at(a, x, y), at(b, x, y));
+      both.rgba.insert(both.rgba.end(), values.begin(), values.end());
+    }
+  }
+  return both;
 }
 
 std::uint8_t encoded(double component) {
@@ -56,22 +76,18 @@ TextureImage normals_of_heights(const TextureImage& heights, double height) {
 }
 
 TextureImage with_alpha(const TextureImage& colors, const TextureImage& shares) {
-  TextureImage both{
-      colors.name, std::max(colors.width, shares.width), std::max(colors.height, shares.height), {}};
-  both.rgba.reserve(4 * static_cast<std::size_t>(both.width) * static_cast<std::size_t>(both.height));
   const bool by_alpha = has_alpha(shares);
-  const auto at = [&](const TextureImage& image, int x, int y) {
-    const auto scaled = [](int i, int size, int of) { return static_cast<int>(std::int64_t{i} * size / of); };
-    return pixel(image, scaled(x, image.width, both.width), scaled(y, image.height, both.height));
-  };
-  for (int y = 0; y < both.height; ++y) {
-    for (int x = 0; x < both.width; ++x) {
-      const std::uint8_t *color = at(colors, x, y), *share = at(shares, x, y);
-      both.rgba.insert(both.rgba.end(), color, color + 3);
-      both.rgba.push_back(by_alpha ? share[3] : static_cast<std::uint8_t>(brightness(share)));
-    }
-  }
-  return both;
+  return joined(colors, shares, [&](const std::uint8_t* color, const std::uint8_t* share) {
+    const int alpha = by_alpha ? share[3] : brightness(share);
+    return std::array{color[0], color[1], color[2], static_cast<std::uint8_t>(alpha)};
+  });
+}
+
+TextureImage metallic_roughness(const TextureImage& roughness, const TextureImage& metallic) {
+  return joined(roughness, metallic, [](const std::uint8_t* rough, const std::uint8_t* metal) {
+    return std::array{std::uint8_t{255}, static_cast<std::uint8_t>(brightness(rough)),
+                      static_cast<std::uint8_t>(brightness(metal)), std::uint8_t{255}};
+  });
 }
 
 bool cuts_out(const TextureImage& image) {

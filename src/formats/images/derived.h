@@ -16,6 +16,10 @@ TextureImage normals_of_heights(const TextureImage& heights, double height);
 /// high as the larger of both in each direction; the nearest pixels count.
 TextureImage with_alpha(const TextureImage& colors, const TextureImage& shares);
 
+/// The brightness of `roughness` in green and that of `metallic` in blue, as
+/// Material::metallic_roughness_map. Sizes are treated as with_alpha() does.
+TextureImage metallic_roughness(const TextureImage& roughness, const TextureImage& metallic);
+
 /// Whether alpha says yes or no: all but an eighth of the pixels are nearly 0 or nearly 255.
 bool cuts_out(const TextureImage& image);
 

@@ -129,16 +129,26 @@ int SceneImages::normals_of_bumps(int bumps, float scale) {
              derive(image.name, image.width, image.height, [&] { return normals_of_heights(image, height); });
 }
 
-int SceneImages::with_alpha(int colors, int shares) {
-  if (shares < 0) return -1;
-  const auto [entry, is_new] = with_alpha_.try_emplace({colors, shares}, -1);
+int SceneImages::join(int a, int b, TextureImage (*join)(const TextureImage&, const TextureImage&),
+                      std::map<std::pair<int, int>, int>& known) {
+  const auto [entry, is_new] = known.try_emplace({a, b}, -1);
   if (!is_new) return entry->second;
   const TextureImage white{"white", 1, 1, {255, 255, 255, 255}};
-  const TextureImage& color = colors < 0 ? white : scene_.images[static_cast<std::size_t>(colors)];
-  const TextureImage& share = scene_.images[static_cast<std::size_t>(shares)];
-  return entry->second =
-             derive(share.name, std::max(color.width, share.width), std::max(color.height, share.height),
-                    [&] { return formats::with_alpha(color, share); });
+  const auto picture = [&](int i) -> const TextureImage& {
+    return i < 0 ? white : scene_.images[static_cast<std::size_t>(i)];
+  };
+  const TextureImage &first = picture(a), &second = picture(b);
+  return entry->second = derive(b < 0 ? first.name : second.name, std::max(first.width, second.width),
+                                std::max(first.height, second.height), [&] { return join(first, second); });
+}
+
+int SceneImages::with_alpha(int colors, int shares) {
+  return shares < 0 ? -1 : join(colors, shares, formats::with_alpha, with_alpha_);
+}
+
+int SceneImages::metallic_roughness(int roughness, int metallic) {
+  if (roughness == metallic) return roughness;
+  return join(roughness, metallic, formats::metallic_roughness, metallic_roughness_);
 }
 
 bool SceneImages::cuts_out(int image) {

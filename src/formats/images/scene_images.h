@@ -35,6 +35,9 @@ public:
   /// The colours of one picture (-1: white) with the other as its alpha, as with_alpha() says; -1 where the
   /// second is.
   int with_alpha(int colors, int shares);
+  /// Two pictures (-1: white) as metallic_roughness() joins them; -1 where both are. One picture for both is
+  /// taken as it is: grey, or packed as glTF does it.
+  int metallic_roughness(int roughness, int metallic);
   /// Whether the alpha of picture `image` says yes or no, as cuts_out() says.
   bool cuts_out(int image);
 
@@ -44,6 +47,9 @@ private:
   int fail(const std::string& name, const std::string& why);
   /// Adds what `make` makes, once there is room for its pixels.
   int derive(const std::string& name, int width, int height, const std::function<TextureImage()>& make);
+  /// The picture that `join` makes of two (-1: white), once for each pair.
+  int join(int a, int b, TextureImage (*join)(const TextureImage&, const TextureImage&),
+           std::map<std::pair<int, int>, int>& known);
 
   Scene& scene_;
   std::vector<std::filesystem::path> folders_;          ///< the scene's and two in it, then the texture paths
@@ -52,8 +58,8 @@ private:
   std::map<std::string, int> index_of_;                 ///< by name in the scene file
   std::map<std::filesystem::path, int> index_of_file_;  ///< by place on disk
   std::map<std::pair<int, float>, int> normals_of_;     ///< by bump map and scale
-  std::map<std::pair<int, int>, int> with_alpha_;       ///< by both pictures
-  std::map<int, bool> holds_heights_, cuts_out_;        ///< by picture: what derived.h says of it
+  std::map<std::pair<int, int>, int> with_alpha_, metallic_roughness_;  ///< by both pictures
+  std::map<int, bool> holds_heights_, cuts_out_;  ///< by picture: what derived.h says of it
   std::uint64_t pixels_left_ = most_scene_pixels;
 };
 

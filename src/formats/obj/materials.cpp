@@ -39,20 +39,24 @@ float alpha_of(const MtlMaterial& source) {
 struct Faulty {
   std::string first;  ///< in words
   std::size_t count = 0;
+
+  void add(const std::string& place) {
+    if (count++ == 0) first = place;
+  }
 };
+
+/// Whether two pictures lie on the surface in the same way, so that one can be made of them; where there is
+/// only one, they do.
+bool placed_alike(const TextureMap& a, const TextureMap& b) {
+  return !a || !b || (a.transform == b.transform && a.wrap_u == b.wrap_u);
+}
 
 /// map_d: alpha from a picture of its own, which is used where it lies on the surface as map_Kd does.
 void read_alpha_map(const MtlMaterial& source, const std::string& place, SceneImages& images,
                     Material& material, Faulty& placed_otherwise) {
   const TextureMap shares = map_of(source.map({"map_d"}), place, images);
-  const TextureMap& colors = material.base_color_map;
-  const bool placed_alike =
-      !colors || (colors.transform == shares.transform && colors.wrap_u == shares.wrap_u);
   if (!shares) return;
-  if (!placed_alike) {
-    if (placed_otherwise.count++ == 0) placed_otherwise.first = place;
-    return;
-  }
+  if (!placed_alike(material.base_color_map, shares)) return placed_otherwise.add(place);
   const int both =
       images.with_alpha(material.base_color_map ? material.base_color_map.image : -1, shares.image);
   if (both < 0) return;
@@ -60,6 +64,24 @@ void read_alpha_map(const MtlMaterial& source, const std::string& place, SceneIm
   material.base_color_map.image = both;
   if (material.alpha_mode == AlphaMode::opaque)
     material.alpha_mode = images.cuts_out(both) ? AlphaMode::mask : AlphaMode::blend;
+}
+
+/// Pr, Pm and their pictures. A picture takes the place of its number: exporters write the number that it
+/// replaces beside it, often 0.
+void read_roughness(const MtlMaterial& source, const std::string& place, SceneImages& images,
+                    Material& material, Faulty& placed_otherwise) {
+  const TextureMap rough = map_of(source.map({"map_pr"}), place, images);
+  TextureMap metal = map_of(source.map({"map_pm"}), place, images);
+  if (!placed_alike(rough, metal)) {
+    placed_otherwise.add(place);
+    metal = {};
+  }
+  if (!source.roughness && !source.metallic && !rough && !metal) return;
+  material.model = SurfaceModel::metallic_roughness;
+  material.roughness = rough ? 1 : std::clamp(source.roughness.value_or(1), 0.0f, 1.0f);
+  material.metallic = metal ? 1 : std::clamp(source.metallic.value_or(0), 0.0f, 1.0f);
+  material.metallic_roughness_map = rough ? rough : metal;
+  material.metallic_roughness_map.image = images.metallic_roughness(rough.image, metal.image);
 }
 
 /// norm holds normals; bump and map_Bump heights, or in many files normals too.
@@ -72,8 +94,12 @@ void read_normal_map(const MtlMaterial& source, const std::string& place, SceneI
   material.normal_map.image = images.normals_of_bumps(material.normal_map.image, bumps->bump);
 }
 
-Material read_material(const MtlMaterial& source, float alpha, SceneImages& images,
-                       Faulty& placed_otherwise) {
+/// Materials of whose pictures one lies otherwise than the one that it belongs to.
+struct FaultyMaps {
+  Faulty alpha_otherwise, rough_otherwise;
+};
+
+Material read_material(const MtlMaterial& source, float alpha, SceneImages& images, FaultyMaps& faulty) {
   constexpr int diffuse_only = 1;  // one of the MTL format's illumination models
   const std::string place = fmt::format("material '{}'", shown(source.name));
   Material material;
@@ -89,18 +115,14 @@ Material read_material(const MtlMaterial& source, float alpha, SceneImages& imag
   const float exponent = std::max(source.shininess.value_or(1), 0.0f);
   if (source.illumination != diffuse_only && exponent > 0) material.specular = source.specular;
   material.phong_exponent = exponent > 0 ? exponent : 1;
-  if (source.roughness || source.metallic) {
-    material.model = SurfaceModel::metallic_roughness;
-    material.roughness = std::clamp(source.roughness.value_or(1), 0.0f, 1.0f);
-    material.metallic = std::clamp(source.metallic.value_or(0), 0.0f, 1.0f);
-  }
+  read_roughness(source, place, images, material, faulty.rough_otherwise);
   material.alpha = alpha;
   if (material.alpha < 1) material.alpha_mode = AlphaMode::blend;
   if (material.specular != glm::vec3(0)) {
     material.specular_map = map_of(source.map({"map_ks"}), place, images);
     material.exponent_map = map_of(source.map({"map_ns"}), place, images);
   }
-  read_alpha_map(source, place, images, material, placed_otherwise);
+  read_alpha_map(source, place, images, material, faulty.alpha_otherwise);
   read_normal_map(source, place, images, material);
   return material;
 }
@@ -108,8 +130,8 @@ Material read_material(const MtlMaterial& source, float alpha, SceneImages& imag
 /// What the materials have and nothing here uses.
 void name_unused(const std::vector<MtlMaterial>& sources, Scene& scene) {
   std::map<std::string, std::size_t> counts;
-  static const std::set<std::string_view> used{"map_kd", "map_ke",   "map_ks", "map_ns",
-                                               "map_d",  "map_bump", "bump",   "norm"};
+  static const std::set<std::string_view> used{"map_kd",   "map_ke", "map_ks", "map_ns", "map_d",
+                                               "map_bump", "bump",   "norm",   "map_pr", "map_pm"};
   constexpr std::size_t most_kinds = 20;  // a file of another kind has thousands
   for (const MtlMaterial& source : sources)
     for (const MtlMap& map : source.maps) {
@@ -120,19 +142,22 @@ void name_unused(const std::vector<MtlMaterial>& sources, Scene& scene) {
   for (const auto& [name, count] : counts) scene.unused.push_back({name, count});
 }
 
+void name_faulty(const Faulty& faulty, const char* map, const char* other, Scene& scene) {
+  if (faulty.count == 0) return;
+  scene.warnings.push_back(fmt::format(
+      "{}{}: found {} with other options than {}, expected the same; it is not used.", faulty.first,
+      faulty.count > 1 ? fmt::format(" and {} more", faulty.count - 1) : "", map, other));
+}
+
 }  // namespace
 
 void add_materials(const std::vector<MtlMaterial>& sources, SceneImages& images, Scene& scene) {
   const bool all_opaque = transparency_means_opacity(sources);
-  Faulty placed_otherwise;
+  FaultyMaps faulty;
   for (const MtlMaterial& source : sources)
-    scene.materials.push_back(
-        read_material(source, all_opaque ? 1 : alpha_of(source), images, placed_otherwise));
-  if (placed_otherwise.count > 0)
-    scene.warnings.push_back(fmt::format(
-        "{}{}: found map_d with other options than map_Kd, expected the same; it is not used.",
-        placed_otherwise.first,
-        placed_otherwise.count > 1 ? fmt::format(" and {} more", placed_otherwise.count - 1) : ""));
+    scene.materials.push_back(read_material(source, all_opaque ? 1 : alpha_of(source), images, faulty));
+  name_faulty(faulty.alpha_otherwise, "map_d", "map_Kd", scene);
+  name_faulty(faulty.rough_otherwise, "map_Pm", "map_Pr", scene);
   if (all_opaque)
     scene.warnings.push_back(
         "Every material states Tr 1, with which nothing would be seen: taken as opaque, as MeshLab writes "
