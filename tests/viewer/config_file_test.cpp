@@ -66,6 +66,11 @@ TEST(ConfigFile, GivesEveryKeyThatTheCommandLineDoesNotGive) {
   EXPECT_EQ(names_of(both.masks), Names{"c.png"}) << "a key of an option is not the option";
 }
 
+TEST(ConfigFile, MayBeginWithAByteOrderMark) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(refusal(folder, "\xEF\xBB\xBFsize = 40x30\n"), "");
+}
+
 TEST(ConfigFile, KeysLeaveTheValueOfTheirOption) {
   const auto sized = read_options("--light-size sun=1", "light-size = 5%").method;
   EXPECT_EQ(sized.light_size, (viewer::LightSize{glm::vec2(5), true}));

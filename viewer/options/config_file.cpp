@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <sstream>
+#include <string_view>
 #include <vector>
 
 #include "io/input_file.h"
@@ -89,7 +90,8 @@ CLI::App* command_of(CLI::App& command, const std::vector<CLI::App*>& commands, 
 std::vector<CLI::ConfigItem> read_items(const std::string& path) {
   const auto text = io::read_file(path, most_bytes);
   if (!text) throw CLI::ValidationError(config_option, text.error().message);
-  std::istringstream lines(*text);
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // Windows' editors write it
+  std::istringstream lines(text->substr(text->starts_with(byte_order_mark) ? byte_order_mark.size() : 0));
   return CLI::ConfigBase().from_config(lines);
 }
 
