@@ -37,7 +37,7 @@ MAY_INCLUDE = {
     "render": {"base", "io", "math", "simd", "parallel", "scene", "formats", "points", "shadow", "soft", "ao", "tint", "gl", "raster", "visibility", "texture", "shade", "shade_gl"},
     "settings": {"base", "io", "scene", "formats", "gl", "shade", "stage", "render"},
     "session": {"base", "io", "scene", "formats", "shade", "stage", "render", "settings"},
-    "bake": {"base", "parallel", "scene", "points", "soft", "shade", "render"},
+    "bake": {"base", "math", "parallel", "scene", "points", "soft", "shade", "render"},
     "sun": {"base", "io", "math", "parallel", "scene", "formats"},  # and points of one's own by their public header
 }
 
@@ -69,6 +69,7 @@ CONTAINED = [
     (r"\bstbi_|stb/stb_image", "stb_image", {"io/image.cpp"}),
     (r"\bImf\b|\bImath\b|Imf\w*\.h|Imath\w*\.h", "OpenEXR", {"io/exr/exr_file.cpp"}),
     (r"libdeflate", "libdeflate", {"io/png_writer.cpp", "io/png_structure.cpp"}),
+    (r"\bktx[A-Z]|<ktx\.h>", "libktx", {"formats/images/ktx2.cpp"}),
     (r"\bWebP[A-Z]|webp/", "libwebp", {"formats/images/webp.cpp"}),
     (r"\bImGui|GLFW", "the window", set()),
     (r"\brtc[A-Z]\w*\(|embree", "the ray caster", {"ao/reference/embree.h", "ao/reference/reference_rays.cpp"}),

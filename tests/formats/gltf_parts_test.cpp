@@ -113,7 +113,7 @@ TEST(GltfInstances, OfHugeNumbersAreRefused) {
 }
 
 TEST(GltfExtensions, ThatTouchLooksAloneAreAWarningWhereRequired) {
-  for (const char* name : {"KHR_texture_basisu", "EXT_texture_avif", "KHR_materials_diffuse_transmission",
+  for (const char* name : {"EXT_texture_astc", "EXT_texture_avif", "KHR_materials_diffuse_transmission",
                            "MSFT_texture_dds", "KHR_xmp_json_ld"}) {
     GltfBuilder file;
     file.add_triangle();

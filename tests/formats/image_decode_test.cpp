@@ -1,6 +1,8 @@
 // Pictures of all kinds, whole, broken, and larger than they may be.
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "formats/images/decode.h"
 #include "formats/import_failure.h"
 #include "pictures.h"
@@ -141,9 +143,74 @@ TEST(ImageDecode, RefusesMorePixelsThanASceneMayHave) {
   EXPECT_EQ(pixels_left, 24u);
 }
 
-TEST(ImageDecode, SaysThatKtx2IsNotRead) {
-  expect_refused("\xABKTX 20\xBB\r\n\x1A\n", "KTX2");
+/// A KTX2 picture of 4 x 4 pixels of one colour: UASTC's mode 8, in which a block is one colour, and its
+/// format's descriptor. Numbers are of four bytes.
+std::string ktx2_of_one_colour(const std::array<std::uint8_t, 4>& rgba) {
+  constexpr std::uint32_t descriptor_at = 104, descriptor_bytes = 44, block_at = 160, block_bytes = 16;
+  const std::uint32_t numbers[] = {
+      0, 1, 4, 4, 0, 0, 1, 1, 0, descriptor_at, descriptor_bytes,  // to the keys
+      0, 0, 0, 0, 0, 0, block_at, 0, block_bytes, 0, block_bytes, 0,
+      // size, vendor and type, version and size, model 166 (UASTC, linear), texels 4x4
+      descriptor_bytes, 0, 2 | 40 << 16, 166 | 1 << 8 | 1 << 16, 3 | 3 << 8, 16, 0,
+      // the one sample: RGBA in 128 bits
+      127 << 16 | 3 << 24, 0, 0, 0xFFFFFFFF, 0, 0, 0};
+  std::string bytes = "\xABKTX 20\xBB\r\n\x1A\n";
+  for (const std::uint32_t number : numbers)
+    for (int i = 0; i < 4; ++i) bytes += static_cast<char>(number >> 8 * i);
+  bytes.resize(block_at);
+  std::uint64_t block = 0x17;  // the mode, in five bits
+  for (std::size_t i = 0; i < 4; ++i) block |= std::uint64_t{rgba[i]} << (5 + 8 * i);
+  for (unsigned i = 0; i < block_bytes; ++i) bytes += static_cast<char>(i < 8 ? block >> 8 * i : 0);
+  return bytes;
 }
+
+TEST(ImageDecode, ReadsKtx2OrNamesTheLibrary) {
+  const std::string bytes = ktx2_of_one_colour({250, 100, 7, 200});
+#ifdef TENEBRA_KTX
+  ASSERT_TRUE(formats::reads_ktx2());
+  const TextureImage picture = decode(bytes);
+  ASSERT_EQ(picture.rgba.size(), 64u);
+  for (std::size_t i = 0; i < 64; i += 4)
+    EXPECT_EQ(std::vector<std::uint8_t>(&picture.rgba[i], &picture.rgba[i] + 4),
+              (std::vector<std::uint8_t>{250, 100, 7, 200}));
+#else
+  EXPECT_FALSE(formats::reads_ktx2());
+  expect_refused(bytes, "install libktx");
+#endif
+}
+
+#ifdef TENEBRA_KTX
+/// libktx believes the file: what it says of its parts is checked before. A descriptor's block of no size
+/// made it loop for ever.
+TEST(ImageDecode, Ktx2IsCheckedBeforeItIsDecoded) {
+  const std::string good = ktx2_of_one_colour({1, 2, 3, 4});
+  const auto with = [&](std::size_t at, std::uint32_t number) {
+    std::string bytes = good;
+    for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<char>(number >> 8 * i);
+    return bytes;
+  };
+  expect_refused(with(20, 1u << 31), "at most");
+  expect_refused(with(24, 0), "at least one");
+  expect_refused(with(28, 1), "of depth 1");
+  expect_refused(with(36, 6), "6 faces");
+  expect_refused(with(40, 99), "found 99 levels");
+  expect_refused(with(40, 2), "behind its levels");
+  expect_refused(with(44, 4), "supercompression 4");
+  expect_refused(with(48, 5000), "format descriptor");
+  expect_refused(with(112, 2), "one basic block");
+  expect_refused(with(60, 5000), "keys");
+  expect_refused(with(80, 5000), "levels");
+  expect_refused(with(88, 0xFFFFFFFF), "levels");
+  expect_refused(with(96, 32), "expected the 16 of UASTC");
+  expect_refused(with(44, 1), "shared header");
+  for (std::size_t size = 0; size < good.size(); ++size) refusal(good.substr(0, size));
+  for (std::size_t bit = 0; bit < 8 * good.size(); ++bit) {
+    std::string bytes = good;
+    bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ 1 << bit % 8);
+    refusal(bytes);  // a sentence, or a picture
+  }
+}
+#endif
 
 TEST(ImageDecode, ReadsWebpOrNamesThePackage) {
 #ifdef TENEBRA_WEBP

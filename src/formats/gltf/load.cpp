@@ -13,23 +13,13 @@
 namespace tenebra::formats::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 17> understood_extensions = {"KHR_materials_ior",
-                                                                    "KHR_materials_specular",
-                                                                    "KHR_meshopt_compression",
-                                                                    "KHR_lights_punctual",
-                                                                    "EXT_lights_area",
-                                                                    "KHR_mesh_quantization",
-                                                                    "KHR_materials_unlit",
-                                                                    "KHR_node_visibility",
-                                                                    "KHR_materials_emissive_strength",
-                                                                    "KHR_texture_transform",
-                                                                    "EXT_meshopt_compression",
-                                                                    "KHR_draco_mesh_compression",
-                                                                    "EXT_mesh_gpu_instancing",
-                                                                    "KHR_animation_pointer",
-                                                                    "KHR_materials_transmission",
-                                                                    "EXT_texture_webp",
-                                                                    "KHR_materials_pbrSpecularGlossiness"};
+constexpr std::array<std::string_view, 18> understood_extensions = {
+    "KHR_materials_ior",       "KHR_materials_specular",  "KHR_meshopt_compression",
+    "KHR_lights_punctual",     "EXT_lights_area",         "KHR_mesh_quantization",
+    "KHR_materials_unlit",     "KHR_node_visibility",     "KHR_materials_emissive_strength",
+    "KHR_texture_transform",   "EXT_meshopt_compression", "KHR_draco_mesh_compression",
+    "EXT_mesh_gpu_instancing", "KHR_animation_pointer",   "KHR_materials_transmission",
+    "EXT_texture_webp",        "KHR_texture_basisu",      "KHR_materials_pbrSpecularGlossiness"};
 
 bool is_understood(std::string_view extension) {
   return std::find(understood_extensions.begin(), understood_extensions.end(), extension) !=

@@ -162,26 +162,25 @@ int Textures::image(int index) {
   return result;
 }
 
-/// The picture of a texture: WebP where this build reads it, else what stands beside it for others.
+/// The picture of a texture: KTX2 or WebP where this build reads it, else what stands beside it for others.
 int Textures::image_of(int texture, const std::string& place) {
   const tinygltf::Texture& source = asset_.model.textures[static_cast<std::size_t>(texture)];
   const auto by_extension = [&](const char* name) {
     const auto found = source.extensions.find(name);
     return found == source.extensions.end() ? -1 : static_cast<int>(number_or(found->second, "source", -1));
   };
-  const int webp = by_extension("EXT_texture_webp"), basis = by_extension("KHR_texture_basisu");
+  const int ktx2 = by_extension("KHR_texture_basisu"), webp = by_extension("EXT_texture_webp");
+  if (ktx2 >= 0 && (reads_ktx2() || (source.source < 0 && webp < 0))) {
+    const int found = image(ktx2);
+    if (found >= 0 || (source.source < 0 && webp < 0)) return found;
+  }
   if (webp >= 0 && (reads_webp() || source.source < 0)) {
     const int found = image(webp);
     if (found >= 0 || source.source < 0) return found;
   }
   if (source.source >= 0) return image(source.source);
   asset_.scene.warnings.push_back(
-      basis >= 0
-          ? fmt::format("{}: found textures[{}] in KTX2 alone, which Tenebra does not read; the factor alone "
-                        "is used.",
-                        place, texture)
-          : fmt::format("{}: found textures[{}] without an image; the factor alone is used.", place,
-                        texture));
+      fmt::format("{}: found textures[{}] without an image; the factor alone is used.", place, texture));
   return -1;
 }
 

@@ -28,9 +28,8 @@ TextureImage decode(std::string_view bytes, std::uint64_t& pixels_left) {
   if (is_ppm(bytes)) return decode_ppm(bytes, pixels_left);
   if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP"))
     return decode_webp(bytes, pixels_left);
-  if (bytes.starts_with("\xABKTX 20\xBB"))
-    refuse("found a KTX2 picture, which Tenebra does not read, expected PNG, JPEG, WebP or PPM");
-  refuse("found a file of no known kind, expected PNG, JPEG, WebP or PPM");
+  if (bytes.starts_with("\xABKTX 20\xBB")) return decode_ktx2(bytes, pixels_left);
+  refuse("found a file of no known kind, expected PNG, JPEG, WebP, KTX2 or PPM");
 }
 
 }  // namespace

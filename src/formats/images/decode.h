@@ -1,4 +1,5 @@
-// The pictures of scenes, whatever their format: PNG, JPEG, PPM, and WebP where libwebp was found.
+// The pictures of scenes, whatever their format: PNG, JPEG, PPM; WebP and KTX2 where their
+// libraries were found.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +19,9 @@ inline constexpr std::uint64_t most_scene_pixels = std::uint64_t{1} << 27;
 /// expected ...") for what is no picture, is broken, or states a size beyond the limits.
 TextureImage decode_image(std::string_view bytes, std::string name, std::uint64_t& pixels_left);
 
-/// Whether this build reads WebP.
+/// Whether this build reads WebP, and KTX2 with Basis Universal.
 bool reads_webp();
+bool reads_ktx2();
 
 // The formats, each in a file of its own; for decode_image alone.
 
@@ -28,5 +30,6 @@ void charge_pixels(std::uint64_t width, std::uint64_t height, std::uint64_t& pix
 /// P6 and P3, 8 or 16 bits per value, comments in the header.
 TextureImage decode_ppm(std::string_view bytes, std::uint64_t& pixels_left);
 TextureImage decode_webp(std::string_view bytes, std::uint64_t& pixels_left);
+TextureImage decode_ktx2(std::string_view bytes, std::uint64_t& pixels_left);
 
 }  // namespace tenebra::formats
