@@ -158,6 +158,25 @@ TEST_F(GltfTolerance, AMatrixThatNothingMovesStaysAsItIsWritten) {
   EXPECT_TRUE(scene.warnings.empty());
 }
 
+TEST_F(GltfTolerance, ASunAlongAWallByAMatrixShinesAsIfGivenDirectly) {
+  // Along the wall z = 0: what it blocks turns on the sign of N.L, here on a zero.
+  const Json turned = {0.6, 0, -0.8, 0, 0, 1, 0, 0, 0.8, 0, 0.6, 0, 0, 0, 0, 1};
+  const Json quarter = {0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1};  // -Z becomes +X
+  const Json tilted = {1, 0, 0, 0, 0, 0.8, -0.6, 0, 0, 0.6, 0.8, 0, 0, 0, 0, 1};
+  file_.root["extensionsUsed"] = {"KHR_lights_punctual"};
+  file_.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "directional"}}};
+  const Json sun = {{"KHR_lights_punctual", {{"light", 0}}}};
+  const auto direction = [&](const Json& outer, const Json& inner) {
+    file_.root["nodes"] = {{{"matrix", outer}, {"children", {1}}}, {{"matrix", inner}, {"extensions", sun}}};
+    return evaluate_lights(read(), -1, 0).at(0).direction;
+  };
+  EXPECT_EQ(direction(quarter, tilted), glm::vec3(0.8f, -0.6f, 0));
+  EXPECT_EQ(direction(turned, quarter), glm::vec3(0.6f, 0, -0.8f));
+  const glm::vec3 down = direction({1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1}, tilted);
+  EXPECT_EQ(down.x, 0);
+  EXPECT_EQ(down, glm::vec3(0, -0.8f, 0.6f));
+}
+
 TEST_F(GltfTolerance, AMatrixBesidePartsThatDoNothingIsUsed) {
   Json& node = file_.root["nodes"][0];
   node = {{"mesh", 0}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 0, 0, 1}}, {"scale", {1, 1, 1}}};
