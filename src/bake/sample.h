@@ -6,6 +6,8 @@
 #include <glm/glm.hpp>
 #include <optional>
 
+#include "math/vertex_rounding.h"
+
 namespace tenebra::bake {
 
 struct Sample {
@@ -29,7 +31,7 @@ std::optional<glm::dvec3> weights_inside(const Triangle& corners, const glm::dve
 /// 0.7 mm in 100 m. By the contact rule 2 times would do where walls stand upright on a floor; the rest is
 /// for walls that lean over it down to 2 degrees.
 inline double edge_margin(double extent_m) {
-  return 64 * 1.7320508075688772 * 0x1p-24 * extent_m;
+  return 64 * math::vertex_rounding * extent_m;
 }
 
 }  // namespace tenebra::bake

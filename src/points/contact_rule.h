@@ -4,11 +4,12 @@
 
 #include <glm/glm.hpp>
 
+#include "math/vertex_rounding.h"
+
 namespace tenebra::points {
 
-/// tau of a triangle whose largest |coordinate| is 1, sqrt(3) 2^-24: what rounding to float moves a vertex
-/// by, at most. For scalars and lanes alike.
-inline constexpr double contact_tau = 1.7320508075688772 * 0x1p-24;
+/// tau of a triangle whose largest |coordinate| is 1. For scalars and lanes alike.
+inline constexpr double contact_tau = math::vertex_rounding;
 
 /// tau_X = sqrt(3) 2^-24 M_X, M_X the largest |coordinate| of triangle X.
 double rounding_tolerance(const glm::vec3 triangle[3]);

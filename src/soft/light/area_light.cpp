@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "base/fail.h"
+#include "math/vertex_rounding.h"
 #include "soft/light/even_emission.h"
 
 namespace tenebra {
@@ -37,12 +38,12 @@ double dot(const dvec3& a, const dvec3& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// tau; 2^-150 is half the distance between the smallest floats.
+/// tau; floats below 2^-126 lie as far apart as there.
 double rounding_of(std::span<const vec3> vertices) {
   double largest = 0;
   for (const vec3& v : vertices)
     for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(static_cast<double>(v[axis])));
-  return 1.7320508075688772 * std::max(0x1p-24 * largest, 0x1p-150);
+  return math::vertex_rounding * std::max(largest, 0x1p-126);
 }
 
 std::optional<std::size_t> first_infinite(std::span<const vec3> vertices) {
