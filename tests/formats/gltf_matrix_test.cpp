@@ -301,6 +301,37 @@ TEST(GltfExtremes, ListedNodesBelowALongChainTakeLessThanTwoSeconds) {
       file, [](const Scene& scene) { return scene.nodes.size() == 2 * half && scene.warnings.size() == 1; });
 }
 
+/// `count` instances of one triangle, each with a place of its own.
+File instanced(std::size_t count) {
+  File file;
+  const auto corners = file.floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 3);
+  file.root["accessors"][corners]["min"] = {0, 0, 0};
+  file.root["accessors"][corners]["max"] = {1, 1, 0};
+  const auto places = file.floats(std::vector<float>(3 * count, 2.0f), "VEC3", 3);
+  file.root["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", corners}}}}}}}};
+  file.root["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+  file.root["nodes"][0] = {
+      {"mesh", 0},
+      {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", places}}}}}}}};
+  return file;
+}
+
+TEST(GltfExtremes, AMillionInstancesTakeLessThanTwoSeconds) {
+  expect_quick_import(instanced(1'000'000),
+                      [](const Scene& scene) { return scene.nodes.size() == 1'000'001; });
+}
+
+TEST(GltfExtremes, MoreInstancesThanFitAreRefusedWithTheirNumber) {
+  File file = instanced(1);
+  file.root["accessors"][1].erase("bufferView");  // as many zeros as it says
+  file.root["accessors"][1]["count"] = 700'000;
+  const auto scene = file.import();
+  ASSERT_FALSE(scene.has_value());
+  EXPECT_NE(scene.error().message.find("found 700000 instances in all, expected at most 5"),
+            std::string::npos)
+      << scene.error().message;
+}
+
 TEST(GltfExtremes, AMillionKeysTakeLessThanTwoSeconds) {
   std::vector<float> times;
   for (int i = 0; i < 1'000'000; ++i) times.push_back(static_cast<float>(i) / 1024);

@@ -39,6 +39,14 @@ std::vector<double> read_attribute(Asset& asset, const Value& attributes, const 
   return read_numbers(asset, index);
 }
 
+/// The accessor that says how many instances there are; -1: none does.
+int counting_accessor(const Value& attributes) {
+  for (const char* name : {"TRANSLATION", "ROTATION", "SCALE"})
+    if (const Value* found = member(attributes, name)) return found->GetNumberAsInt();
+  const auto names = attributes.Keys();  // the application's own
+  return names.empty() ? -1 : attributes.Get(names.front()).GetNumberAsInt();
+}
+
 Instances read_instances(Asset& asset, const Value& extension, int index) {
   Instances instances;
   instances.place = fmt::format("nodes[{}].extensions.{}.attributes", index, instancing_name);
@@ -51,11 +59,8 @@ Instances read_instances(Asset& asset, const Value& extension, int index) {
     asset.scene.warnings.push_back(
         fmt::format("{}: found unknown '{}', left unread.", instances.place, name));
   }
-  // Attributes of the application's own state a number of instances too.
-  for (const std::string& name : attributes.Keys())
-    if (instances.count == 0)
-      instances.count =
-          asset.model.accessors[static_cast<std::size_t>(attributes.Get(name).GetNumberAsInt())].count;
+  if (const int counting = counting_accessor(attributes); counting >= 0)
+    instances.count = asset.model.accessors[static_cast<std::size_t>(counting)].count;
   return instances;
 }
 
@@ -80,11 +85,33 @@ Node instance_node(const Instances& instances, std::size_t i, const Node& shown)
 
 }  // namespace
 
+std::size_t count_instances(const Asset& asset, int index) {
+  const auto& source = asset.model.nodes[static_cast<std::size_t>(index)];
+  const auto found = source.extensions.find(instancing_name);
+  const int counting =
+      found == source.extensions.end() ? -1 : counting_accessor(found->second.Get("attributes"));
+  return counting < 0 ? 0 : asset.model.accessors[static_cast<std::size_t>(counting)].count;
+}
+
+void reserve_instances(Asset& asset, std::size_t count) {
+  // The budget is below half of what import_scene.h promises, as lists double while they grow. Nodes do not,
+  // here, and so count half; beside each there are the numbers of its transform, until it is made.
+  constexpr std::size_t bytes = (sizeof(Node) + 10 * sizeof(double)) / 2;
+  if (!asset.budget.try_take(count, bytes))
+    refuse("{}: found {} instances in all, expected at most {}, for a file of this size (split the scene)",
+           instancing_name, count, asset.budget.left() / bytes);
+  asset.scene.nodes.reserve(asset.scene.nodes.size() + count);
+}
+
 void add_instances(Asset& asset, int index, int self) {
   const auto& source = asset.model.nodes[static_cast<std::size_t>(index)];
   const auto found = source.extensions.find(instancing_name);
   if (found == source.extensions.end()) return;
+  // reserve_instances() has paid for the numbers, at most ten an instance; readers take 16 bytes for each.
+  const Budget before = asset.budget;
+  asset.budget.give(std::uint64_t{10 * 16} * count_instances(asset, index));
   const Instances instances = read_instances(asset, found->second, index);
+  asset.budget = before;
   Node shown = asset.scene.nodes[static_cast<std::size_t>(self)];
   if (shown.mesh < 0) return;
   if (shown.skin >= 0) {
@@ -92,10 +119,8 @@ void add_instances(Asset& asset, int index, int self) {
         "{}: found on a mesh with a skin, which says where it stands; shown once.", instances.place));
     return;
   }
-  asset.budget.take(instances.count, sizeof(Node) + 64, instances.place);
   auto& nodes = asset.scene.nodes;
   asset.instances[self] = {static_cast<int>(nodes.size()), static_cast<int>(instances.count)};
-  nodes.reserve(nodes.size() + instances.count);
   for (std::size_t i = 0; i < instances.count; ++i) {
     Node node = instance_node(instances, i, shown);
     node.parent = self;

@@ -28,10 +28,17 @@ public:
   explicit Budget(std::uint64_t bytes) : left_(bytes) {}
   /// Takes count * size bytes; throws ImportFailure naming `place` when they are not there.
   void take(std::uint64_t count, std::uint64_t size, const std::string& place) {
-    if (count > left_ / size)
-      refuse("{}: found {} elements, expected no more than the file can fill", place, count);
-    left_ -= count * size;
+    if (!try_take(count, size))
+      refuse("{}: found {} elements, expected at most {} for a file of this size", place, count,
+             left_ / size);
   }
+  /// The same; false where they are not there.
+  bool try_take(std::uint64_t count, std::uint64_t size) {
+    if (count > left_ / size) return false;
+    left_ -= count * size;
+    return true;
+  }
+  std::uint64_t left() const { return left_; }
   /// Adds what the bytes of one more file allow.
   void give(std::uint64_t bytes) { left_ += bytes; }
 
@@ -115,6 +122,10 @@ void choose_scene(Asset& asset, const std::string& wanted);
 /// Nodes of the scene that is shown, parents first. Returns the scene's node of each node of the file, or -1.
 /// Throws ImportFailure for a node with several parents.
 std::vector<int> build_nodes(Asset& asset);
+/// How many instances the file's node `index` has.
+std::size_t count_instances(const Asset& asset, int index);
+/// Makes room for `count` nodes of instances, in all. Throws ImportFailure where the budget has none.
+void reserve_instances(Asset& asset, std::size_t count);
 /// EXT_mesh_gpu_instancing of the file's node `index`: its mesh moves from the scene's node `self` to a
 /// node below it for each instance.
 void add_instances(Asset& asset, int index, int self);

@@ -254,6 +254,18 @@ void note_animated(Asset& asset) {
     }
 }
 
+void add_all_instances(Asset& asset, const ShownNodes& shown, const std::vector<int>& scene_node) {
+  std::vector<int> in_scene;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < scene_node.size(); ++i) {
+    if (scene_node[i] < 0 || shown.bare[i]) continue;
+    in_scene.push_back(static_cast<int>(i));
+    count += asset.model.nodes[i].mesh < 0 ? 0 : count_instances(asset, in_scene.back());
+  }
+  if (count > 0) reserve_instances(asset, count);
+  for (const int i : in_scene) add_instances(asset, i, scene_node[static_cast<std::size_t>(i)]);
+}
+
 /// A mesh can stand at any number of nodes: the size of the frame that is made of them must be limited.
 void check_size(const Scene& scene) {
   constexpr std::size_t most = 50'000'000;
@@ -318,8 +330,7 @@ std::vector<int> build_nodes(Asset& asset) {
     }
   }
   asset.scene.warnings.resize(warned);  // the first reading has said it
-  for (std::size_t i = 0; i < scene_node.size(); ++i)
-    if (scene_node[i] >= 0 && !shown.bare[i]) add_instances(asset, static_cast<int>(i), scene_node[i]);
+  add_all_instances(asset, shown, scene_node);
   check_size(asset.scene);
   return scene_node;
 }
