@@ -72,6 +72,57 @@ void move_keys_of_roots(const Scene& scene, const glm::dvec3& offset, Clip& clip
   }
 }
 
+/// By what a unit of `unit` metres changes an intensity: that of candela is a unit squared at a unit's
+/// distance.
+double intensity_scale(const Light& light, double unit) {
+  const bool point = light.type == LightType::point || light.type == LightType::spot;
+  return point && light.falloff == Falloff::inverse_square ? unit * unit : 1;
+}
+
+/// The same for what a channel drives. Nodes follow from the root above them.
+double channel_scale(const Scene& scene, const Channel& channel, double unit) {
+  const int light = scene.nodes[static_cast<std::size_t>(channel.node)].light;
+  switch (channel.path) {
+    case ChannelPath::light_range:
+    case ChannelPath::camera_extent:
+    case ChannelPath::camera_near:
+      return unit;
+    case ChannelPath::light_intensity:
+      return light < 0 ? 1 : intensity_scale(scene.lights[static_cast<std::size_t>(light)], unit);
+    default:
+      return 1;
+  }
+}
+
+void scale_keys(const Scene& scene, double unit, Clip& clip) {
+  std::map<std::pair<int, double>, int> scaled;
+  for (Channel& channel : clip.channels) {
+    const double scale = channel_scale(scene, channel, unit);
+    if (scale == 1) continue;
+    const auto [found, fresh] =
+        scaled.try_emplace({channel.track, scale}, static_cast<int>(clip.tracks.size()));
+    if (fresh) {
+      Track track = clip.tracks[static_cast<std::size_t>(channel.track)];
+      for (double& value : track.values) value *= scale;
+      clip.tracks.push_back(std::move(track));
+    }
+    channel.track = found->second;
+  }
+}
+
+/// Lengths of cameras and lights, which are in world space: no node scales them.
+void scale_lengths(double unit, Scene& scene) {
+  for (Camera& camera : scene.cameras) {
+    camera.near_m = static_cast<float>(camera.near_m * unit);
+    camera.vertical_extent_m = static_cast<float>(camera.vertical_extent_m * unit);
+  }
+  for (Clip& clip : scene.clips) scale_keys(scene, unit, clip);
+  for (Light& light : scene.lights) {
+    if (light.range_m) *light.range_m = static_cast<float>(*light.range_m * unit);
+    light.intensity = static_cast<float>(light.intensity * intensity_scale(light, unit));
+  }
+}
+
 void move_roots(const glm::dvec3& offset, Scene& scene) {
   for (Node& node : scene.nodes) {
     if (node.parent >= 0) continue;
@@ -99,6 +150,7 @@ void place_scene(const Placement& placement, Scene& scene) {
   scene.frame = frame_of(placement, scene);
   if (scene.frame.origin != glm::dvec3(0)) move_roots(scene.frame.origin, scene);
   if (scene.frame.up == UpAxis::y && scene.frame.metres_per_unit == 1) return;
+  if (scene.frame.metres_per_unit != 1) scale_lengths(scene.frame.metres_per_unit, scene);
   Node root;
   root.name = "placement";
   root.matrix = glm::dmat4(0.0);  // exact, unlike the rotation by a quaternion
@@ -122,8 +174,9 @@ void warn_of_tolerance(Scene& scene) {
   if (!(tolerance_m > std::min(1e-3, 1e-3 * (bounds.high[side] - bounds.low[side])))) return;
   scene.warnings.push_back(fmt::format(
       "Coordinates reach {:.0f} m: a surface casts no shadow on points closer than {:.3g} m to its plane, "
-      "the tolerance of floats of that size.",
-      bounds.largest_coordinate(), tolerance_m));
+      "the tolerance of floats of that size{}.",
+      bounds.largest_coordinate(), tolerance_m,
+      scene.frame.metres_per_unit == 1 ? " (--unit mm where the file's lengths are millimetres)" : ""));
 }
 
 }  // namespace tenebra::formats

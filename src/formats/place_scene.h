@@ -8,7 +8,8 @@ namespace tenebra::formats {
 
 /// Subtracts the offset of `placement` from the scene's roots, keys of their animations included, which is
 /// exact where they carry it; what the first clip shows at its start decides an automatic one. Another up
-/// axis or unit than Y and metres becomes a node above the roots.
+/// axis or unit than Y and metres becomes a node above the roots. With a unit go what no node scales: near
+/// planes, heights of views, ranges of lights, and candela by its square, so that pictures stay the same.
 void place_scene(const Placement& placement, Scene& scene);
 
 /// Adds a warning where the contact tolerance of the scene's coordinates, as the first clip begins, is more

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <tenebra/frame_geometry.h>
+#include "formats/place_scene.h"
 #include "gltf_builder.h"
 #include "round_trip.h"
 #include "scene/unrounded.h"
@@ -121,6 +122,50 @@ TEST(PlaceScene, TurnsAndScales) {
   ASSERT_EQ(to.size(), from.size());
   for (std::size_t i = 0; i < to.size(); ++i) EXPECT_EQ(to[i], 0.5f * vec3(from[i].x, from[i].z, -from[i].y));
   EXPECT_EQ(turned.frame.up, UpAxis::z);
+}
+
+TEST(PlaceScene, SaysWhichUnitWouldHelp) {
+  GltfBuilder file = far_scene({0, 0, 0});
+  file.root["nodes"][0]["scale"] = {40000, 40000, 40000};
+  const auto says = [](const Scene& scene) {
+    return !scene.warnings.empty() && scene.warnings[0].find("(--unit mm where") != std::string::npos;
+  };
+  EXPECT_TRUE(says(import(file)));
+  EXPECT_FALSE(says(import(file, {.metres_per_unit = 0.001})));
+}
+
+/// Keys of `path` at time 0.
+double keyed(const Scene& scene, ChannelPath path) {
+  for (const Channel& channel : scene.clips[0].channels)
+    if (channel.path == path) return scene.clips[0].tracks[static_cast<std::size_t>(channel.track)].values[0];
+  return 0;
+}
+
+TEST(PlaceScene, ScalesKeysThatNoNodeScales) {
+  Scene scene;
+  scene.lights = {{.type = LightType::spot, .intensity = 64, .range_m = 8.0f},
+                  {.type = LightType::directional}};
+  scene.cameras.emplace_back();
+  scene.nodes = {{.light = 0, .camera = 0}, {.light = 1}};
+  Clip& clip = scene.clips.emplace_back();
+  clip.tracks = {{.components = 1, .times_s = {0}, .values = {16}}};  // of all channels
+  for (const auto& [node, path] : {std::pair(0, ChannelPath::light_intensity),
+                                   {0, ChannelPath::light_range},
+                                   {0, ChannelPath::camera_near},
+                                   {0, ChannelPath::camera_extent},
+                                   {0, ChannelPath::camera_fov}})
+    clip.channels.push_back({.node = node, .path = path, .track = 0});
+  clip.channels.push_back({.node = 1, .path = ChannelPath::light_intensity, .track = 0});
+  formats::place_scene({.metres_per_unit = 0.25}, scene);
+  EXPECT_EQ(scene.lights[0].intensity, 4);
+  EXPECT_EQ(scene.lights[0].range_m, 2.0f);
+  EXPECT_EQ(scene.lights[1].intensity, 1);
+  EXPECT_EQ(keyed(scene, ChannelPath::light_intensity), 1);
+  for (const ChannelPath path :
+       {ChannelPath::light_range, ChannelPath::camera_near, ChannelPath::camera_extent})
+    EXPECT_EQ(keyed(scene, path), 4);
+  EXPECT_EQ(keyed(scene, ChannelPath::camera_fov), 16);
+  EXPECT_EQ(scene.clips[0].channels.back().track, 0) << "lux is the same in every unit";
 }
 
 TEST(PlaceScene, ExportWritesTheFilesCoordinates) {
