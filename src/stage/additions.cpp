@@ -9,6 +9,7 @@
 #include "scene/view_basis.h"
 #include "stage/default_light.h"
 #include "stage/framing.h"
+#include "stage/places.h"
 #include "stage/room.h"
 #include "stage/shadow_floor.h"
 
@@ -22,20 +23,17 @@ double first_time_s(const Scene& scene) {
   return scene.clips.empty() ? 0.0 : scene.clips.front().start_s;
 }
 
-/// A place in the coordinates of the scene's file.
-std::string in_file(const FileFrame& frame, const glm::dvec3& place) {
-  const glm::dvec3 p = frame.to_file(place);
-  return frame.is_identity() ? fmt::format("{:.4g}, {:.4g}, {:.4g}", p.x, p.y, p.z)
-                             : fmt::format("{:.3f}, {:.3f}, {:.3f}", p.x, p.y, p.z);
+const char* assumed_up(UpAxis up) {
+  return up == UpAxis::y ? ", with Y up (--up-axis z if it is Z)" : ", with Z up (--up-axis y if it is Y)";
 }
 
 /// Returns what is to be said of it.
-std::string add_camera(Scene& scene, const Framing& framing, bool own_shape) {
+std::string add_camera(Scene& scene, const Framing& framing, const Additions& wish) {
   Camera camera;
   camera.name = "added";
   camera.vertical_fov_rad = framing.vertical_fov_rad;
   camera.near_m = framing.near_m;
-  if (own_shape) camera.aspect = framing.aspect;
+  if (!wish.aspect) camera.aspect = framing.aspect;
   Node node;
   node.name = "added camera";
   node.translation = framing.eye;
@@ -43,10 +41,10 @@ std::string add_camera(Scene& scene, const Framing& framing, bool own_shape) {
   node.camera = static_cast<int>(scene.cameras.size());
   scene.cameras.push_back(camera);
   std::string said = fmt::format(
-      "The scene has no camera; one was added at {}{}. At the start the scene fills {:.0f} % of its "
+      "The scene has no camera; one was added at {}{}{}. At the start the scene fills {:.0f} % of its "
       "picture.",
-      in_file(scene.frame, node.translation), framing.lamp ? ", in the closed room that it is" : "",
-      100 * framing.subject_share);
+      place_text(scene.frame, node.translation), framing.lamp ? ", in the closed room that it is" : "",
+      wish.up_assumed ? assumed_up(scene.frame.up) : "", 100 * framing.subject_share);
   scene.nodes.push_back(std::move(node));
   return said;
 }
@@ -70,24 +68,31 @@ void add_light(Scene& scene, Node node, LightType type, float intensity) {
   scene.nodes.push_back(std::move(node));
 }
 
-void add_sun(Scene& scene, const glm::dvec3& towards) {
+/// What to say beside an added light of meshes that could shine.
+const char* instead(bool shines) {
+  return shines ? "; with --shadows soft --emissive-lights its emissive meshes shine instead" : "";
+}
+
+void add_sun(Scene& scene, const glm::dvec3& towards, bool shines) {
   Node node;
   node.name = "added sun";
   node.rotation = glm::quat_cast(scene::view_basis(-towards, {0, 1, 0}));
   add_light(scene, std::move(node), LightType::directional, default_sun);
   scene.lights.back().diameter_deg = default_sun_deg;
-  scene.warnings.push_back(
+  scene.warnings.push_back(fmt::format(
       "The scene has no light; a sun from the left behind the camera, 50 degrees high, and the light of a "
-      "soft sky were added (--sky none leaves them out).");
+      "soft sky were added (--sky none leaves them out{}).",
+      instead(shines)));
 }
 
 /// No sun reaches into a closed room.
-void add_lamp(Scene& scene, const glm::dvec3& at) {
+void add_lamp(Scene& scene, const glm::dvec3& at, bool shines) {
   Node node;
   node.name = "added lamp";
   node.translation = at;
   add_light(scene, std::move(node), LightType::point, default_lamp);
-  scene.warnings.push_back("The scene has no light; a lamp below the ceiling and ambient light were added.");
+  scene.warnings.push_back(fmt::format(
+      "The scene has no light; a lamp below the ceiling and ambient light were added{}.", instead(shines)));
 }
 
 bool is_placed(const Scene& scene, int Node::*what) {
@@ -113,15 +118,14 @@ AddedParts add_missing_parts(Scene& scene, const Additions& wish) {
   added.floor_y = subject.low.y - 1e-3 * subject.radius_m();
   if (added.camera) {
     const auto shadow = floor ? std::optional(added.floor_y) : std::nullopt;
-    std::string said =
-        add_camera(scene, room ? *room : frame_subject(subject, shadow, wish.aspect), !wish.aspect);
+    std::string said = add_camera(scene, room ? *room : frame_subject(subject, shadow, wish.aspect), wish);
     if (wish.for_pictures) scene.warnings.push_back(std::move(said));
   }
-  if (added.lamp) add_lamp(scene, *room->lamp);
+  if (added.lamp) add_lamp(scene, *room->lamp, wish.shines);
   if (!added.light || added.lamp) return added;
   const glm::dvec3 sun = towards_sun(compass_of(right_of_camera(scene)));
   if (added.floor) add_shadow_floor(scene, subject, added.floor_y);
-  add_sun(scene, sun);
+  add_sun(scene, sun, wish.shines);
   return added;
 }
 

@@ -22,6 +22,8 @@ struct Additions {
   std::optional<float>
       aspect;  ///< width / height of the picture; none: what suits the scene (Camera::aspect)
   Sky sky = Sky::automatic;
+  bool up_assumed = false;   ///< neither file nor user says what is up: the sentence of an added camera does
+  bool shines = false;       ///< meshes could be lights: the sentence of an added light says how
   bool for_pictures = true;  ///< false: no floor is made, and the camera, which remove_added takes out, is
                              ///< not spoken of; light and camera stand where they would in pictures
 };

@@ -8,6 +8,7 @@
 
 #include "stage/default_light.h"
 #include "stage/framing.h"
+#include "stage/places.h"
 
 namespace tenebra::stage {
 namespace {
@@ -105,8 +106,8 @@ void add_shadow_floor(Scene& scene, const Subject& subject, double floor_y) {
   const glm::dvec3 in_file = scene.frame.to_file({0, floor_y, 0});
   scene.warnings.push_back(fmt::format(
       "The scene has neither light nor floor; a floor that shows its shadow was added at a height "
-      "of {:.4g} (--floor none leaves it out).",
-      scene.frame.up == UpAxis::z ? in_file.z : in_file.y));
+      "of {} (--floor none leaves it out).",
+      coordinate_text(scene.frame.up == UpAxis::z ? in_file.z : in_file.y)));
 }
 
 }  // namespace tenebra::stage

@@ -201,6 +201,7 @@ TEST_F(ObjText, WhatIsNotReadIsSaidOnceForEachKind) {
   EXPECT_EQ(scene.warnings[0], "Line 7 and 1 more: found 'vp', which is not read.");
   EXPECT_EQ(scene.warnings[1], "Line 11: found a face of fewer than three corners, which is left out.");
   EXPECT_EQ(scene.warnings[2], "Skipped 2 lines of points and lines.");
+  EXPECT_EQ(read(square + std::string("p 1\nf 1 2 3\n")).warnings[0], "Skipped 1 line of points and lines.");
 }
 
 TEST_F(ObjText, WhatLeavesTheSurfaceInDoubtIsRefusedWithItsLine) {

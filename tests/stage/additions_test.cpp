@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <optional>
 #include <string>
@@ -106,6 +107,31 @@ TEST(AddedCamera, TakesTheShapeThatIsAskedFor) {
   EXPECT_FALSE(scene.cameras[0].aspect);
   scene.cameras[0].aspect = 2.5f;
   expect_in_picture(scene, frame_at(scene), 12);
+}
+
+TEST(AddedCamera, StandsWhereItsSentenceSays) {
+  for (const double step : {0.0, 5334567.25}) {
+    Scene scene = box({0, 0, 0}, {1, 1, 1});
+    scene.frame.origin = {step, 0, 0};
+    add_missing_parts(scene, {.up_assumed = true});
+    const dvec3 eye = scene.frame.to_file(scene.nodes.back().translation);
+    std::string said;
+    dvec3 found(0);
+    for (const std::string& text : scene.warnings)
+      if (text.starts_with("The scene has no camera; one was added at ")) said = text.substr(42);
+    ASSERT_EQ(std::sscanf(said.c_str(), "%lf,%lf,%lf", &found.x, &found.y, &found.z), 3) << said;
+    EXPECT_LT(glm::distance(found, eye), 1e-3);
+    EXPECT_NE(said.find("with Y up (--up-axis z"), std::string::npos) << said;
+  }
+}
+
+TEST(AddedFloor, HasAHeightWithoutAnExponent) {
+  Scene scene = box({0, 0, 0}, {1, 1, 1});
+  scene.frame.origin = {0, 5334567, 0};
+  add_missing_parts(scene);
+  EXPECT_TRUE(std::any_of(scene.warnings.begin(), scene.warnings.end(), [](const std::string& text) {
+    return text.find("at a height of 5334566.99") != std::string::npos;
+  }));
 }
 
 TEST(AddedSun, ShinesFromTheLeftBehindTheCameraWhicheverCameraItIs) {

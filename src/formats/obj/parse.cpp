@@ -233,7 +233,8 @@ private:
     warn_beyond("texture coordinates", largest_coordinates_, file_.coordinates.size());
     warn_beyond("normal", largest_normal_, file_.normals.size());
     if (skipped_ > 0)
-      file_.warnings.push_back(fmt::format("Skipped {} lines of points and lines.", skipped_));
+      file_.warnings.push_back(
+          fmt::format("Skipped {} {} of points and lines.", skipped_, skipped_ == 1 ? "line" : "lines"));
   }
 
   void warn_beyond(const char* what, const LargestIndex& largest, std::size_t size) {
