@@ -55,7 +55,7 @@ py::list light_list(const LoadedScene& scene, double time_s) {
   py::list out;
   const render::FrameInput input = scene.at(time_s);
   Scene edited;
-  edited.lights = stage::lights_of(scene.staged().scene, scene.edits());
+  edited.lights = stage::lights_of(scene.staged().scene, scene.edits(), scene.staged().light_has_units);
   const FileFrame& frame = scene.staged().scene.frame;
   for (const WorldLight& placed : input.lights) {
     const Light light = light_at(edited, placed);

@@ -12,6 +12,9 @@ constexpr int longer_side_px = 160, intervals = 8;
 constexpr std::size_t pixels_to_one_bright = 100;
 constexpr double most_bright = 0.05, most_dark = 0.5;  // shares of a picture that an exposure of 1 may leave
 constexpr float bright = 0.95f, dark = 0.01f;
+/// What the brightest may show: all that the neutral tone leaves as it is. Above it, matte white and the
+/// colours beside it are compressed towards one white.
+constexpr float brightest = shade::neutral::start;
 constexpr int steps_to_double = 8, least_step = -12 * steps_to_double, most_step = 6 * steps_to_double;
 
 /// 2^(step / 8): the same float on every machine.
@@ -34,7 +37,7 @@ std::size_t count_above(const Colors& colors, const shade::Display& display, flo
 }
 
 bool too_bright(const Colors& colors, const shade::Display& display) {
-  return count_above(colors, display, bright) * pixels_to_one_bright > colors.size();
+  return count_above(colors, display, brightest) * pixels_to_one_bright > colors.size();
 }
 
 bool shows_well(const std::vector<Colors>& pictures, const shade::Display& display) {
@@ -72,12 +75,20 @@ settings::Size metered_size(settings::Size size) {
   return {scaled(size.width), scaled(size.height)};
 }
 
-/// Pixels without a triangle count where an environment shows there.
-Colors seen_colors(const render::FrameResult& drawn, bool background_too) {
+/// Pixels without a triangle count where an environment shows there. Those that see an emissive surface do
+/// not count where these are lights: lights may burn out.
+Colors seen_colors(const Session& session, const render::FrameResult& drawn, bool emissive_lights) {
   Colors colors;
+  const StagedScene& staged = session.staged();
+  const auto emits = [&](std::uint32_t triangle) {
+    const std::uint32_t material = session.placed().geometry.materials[triangle];
+    return staged.scene.materials[material].emissive != glm::vec3(0.0f);
+  };
   for (std::size_t i = 0; i < drawn.linear.pixels.size() / 3; ++i) {
     const float* rgb = &drawn.linear.pixels[3 * i];
-    if (background_too || drawn.seen[i] != 0) colors.emplace_back(rgb[0], rgb[1], rgb[2]);
+    const bool seen = drawn.seen[i] != 0;
+    const bool light = seen && emissive_lights && emits(session.renderer().triangle_ids()[i]);
+    if ((seen || staged.environment) && !light) colors.emplace_back(rgb[0], rgb[1], rgb[2]);
   }
   return colors;
 }
@@ -111,9 +122,14 @@ Expected<Meter> meter(const StagedScene& staged, const settings::SceneSettings& 
   std::vector<Colors> pictures;
   for (const double time_s : metered_times(staged)) {
     session->place(time_s, rays_of(staged, viewpoint, time_s, size));
-    const render::RenderSettings metered{.width = size.width, .height = size.height, .linear = true};
+    const render::RenderSettings metered{
+        .width = size.width,
+        .height = size.height,
+        .shadows = settings.emissive_lights ? render::ShadowMode::soft : render::ShadowMode::hard,
+        .area_lights = {.emissive_quads = settings.emissive_lights},
+        .linear = true};
     if (auto done = session->draw(metered, drawn); !done) return tl::unexpected(done.error());
-    Colors colors = seen_colors(drawn, staged.environment.has_value());
+    Colors colors = seen_colors(*session, drawn, settings.emissive_lights);
     if (!colors.empty()) pictures.push_back(std::move(colors));
   }
   Meter found;

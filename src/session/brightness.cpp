@@ -14,23 +14,11 @@ namespace {
 using settings::SceneSettings;
 using stage::Sky;
 
-/// What white shows where it faces the sky of a scene whose brightness is measured, before the step below.
-constexpr float shown_sky = 0.15f;
-/// Steps by which that sky takes an exposure down. What was shown at the limit of 0.95 was 1.672 before the
-/// neutral tone; (1.672 + 0.15) / 2^(1/8) is less.
-constexpr int steps_of_sky = 1;
-
-/// As the first clip begins, which decides what is added.
-bool any_mesh_shines(const Scene& scene) {
-  const bool emissive = std::any_of(scene.materials.begin(), scene.materials.end(),
-                                    [](const Material& m) { return m.emissive != glm::vec3(0.0f); });
-  if (!emissive) return false;
-  FrameGeometry frame;
-  evaluate_frame(scene, scene.clips.empty() ? -1 : 0, scene.clips.empty() ? 0.0 : scene.clips.front().start_s,
-                 frame);
-  std::vector<std::string> notes;
-  return !render::emissive_polygons(scene, frame, notes).empty();
-}
+/// What white shows where it faces the sky of a scene whose brightness is measured, before the steps below.
+constexpr float shown_sky = 0.14f;
+/// Steps by which that sky takes an exposure down. What the meter lets show 0.76 is 0.76 to 0.8 before the
+/// neutral tone, which takes off more of what is greyer; (0.76 + 0.14) / 2^(2/8) is less than 0.76.
+constexpr int steps_of_sky = 2;
 
 void add_sky(float ambient, StagedScene& staged) {
   Scene& scene = staged.scene;
@@ -57,6 +45,17 @@ bool has_units(const Scene& scene) {
   });
 }
 
+bool any_mesh_shines(const Scene& scene) {
+  const bool emissive = std::any_of(scene.materials.begin(), scene.materials.end(),
+                                    [](const Material& m) { return m.emissive != glm::vec3(0.0f); });
+  if (!emissive) return false;
+  FrameGeometry frame;
+  evaluate_frame(scene, scene.clips.empty() ? -1 : 0, scene.clips.empty() ? 0.0 : scene.clips.front().start_s,
+                 frame);
+  std::vector<std::string> notes;
+  return !render::emissive_polygons(scene, frame, notes).empty();
+}
+
 Sky wanted_sun(const SceneSettings& settings, const Scene& scene, bool environment) {
   if (settings.sky != Sky::automatic) return settings.sky;
   const bool lit =
@@ -66,10 +65,13 @@ Sky wanted_sun(const SceneSettings& settings, const Scene& scene, bool environme
 
 Expected<void> settle_brightness(const SceneSettings& settings, bool stated, StagedScene& staged) {
   if (!settings.shows) return {};
-  const bool units = !stated && has_units(staged.scene);
+  const bool units = staged.light_has_units;
+  const bool shines = !stated && settings.emissive_lights && any_mesh_shines(staged.scene);
+  if (shines && settings.sky == Sky::none) staged.scene.ambient_light = glm::vec3(0.0f);
+  const bool lamps = units || shines;
   const bool sky =
-      settings.sky == Sky::soft || (settings.sky == Sky::automatic && units && !staged.environment);
-  const bool unknown = units || (!stated && (!settings.edits.added.empty() || !settings.environment.empty()));
+      settings.sky == Sky::soft || (settings.sky == Sky::automatic && lamps && !staged.environment);
+  const bool unknown = lamps || (!stated && (!settings.edits.added.empty() || !settings.environment.empty()));
   if (sky && !unknown) add_sky(stage::default_ambient, staged);
   const bool scaled_sky = sky && unknown, automatic = unknown && !settings.exposure_given;
   if (!scaled_sky && !automatic && !settings.meter_exposure) return {};

@@ -42,7 +42,7 @@ Expected<Session> Session::open(std::shared_ptr<const StagedScene> staged, const
 void Session::edit(const stage::SceneEdits& edits) {
   const Scene& scene = staged_->scene;
   if (edits.lights != edits_.lights || edits.added != edits_.added)
-    renderer_.set_lights(stage::lights_of(scene, edits));
+    renderer_.set_lights(stage::lights_of(scene, edits, staged_->light_has_units));
   if (edits.materials != edits_.materials) renderer_.set_materials(stage::materials_of(scene, edits));
   edits_ = edits;
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/fail.h"
+#include "formats/format_list.h"
 #include "session/brightness.h"
 #include "session/environment_picture.h"
 #include "session/viewpoint.h"
@@ -101,11 +102,18 @@ Expected<StagedScene> read(const SceneSettings& settings) {
   return staged;
 }
 
+bool assumes_up(const SceneSettings& settings) {
+  const formats::FileFormat* const format = formats::format_of(settings.file);
+  return !settings.import.placement.up && format != nullptr && !format->states_coordinates;
+}
+
 void add_missing_parts(const SceneSettings& settings, Staging staging, StagedScene& staged) {
   // The camera is the same whatever --size is.
   const stage::Additions wish{.floor = settings.floor && !staged.environment,
                               .aspect = {},
                               .sky = wanted_sun(settings, staged.scene, staged.environment.has_value()),
+                              .up_assumed = assumes_up(settings),
+                              .shines = !settings.emissive_lights && any_mesh_shines(staged.scene),
                               .for_pictures = staging == Staging::for_pictures};
   staged.added = stage::add_missing_parts(staged.scene, wish);
   const bool in_the_open = staged.added.light && !staged.added.lamp;
@@ -144,6 +152,7 @@ Expected<StagedScene> stage_scene(const SceneSettings& settings, Staging staging
   Scene& scene = staged->scene;
   stage::leave_out_blank_emission(scene);  // before a floor is added, which is not blank
   const bool stated = states_surroundings(scene);
+  staged->light_has_units = !stated && has_units(scene);
   add_missing_parts(settings, staging, *staged);
   number_lights(scene);
   stage::cut_out_masks(scene, {.most_added = static_cast<std::size_t>(settings.cutout_limit)});

@@ -24,7 +24,9 @@ struct StagedScene {
   std::optional<io::ImageF> environment;  ///< the settings', or the soft sky of an added light
   settings::SceneDisplay display;
   stage::AddedParts added;
-  double fps = 30;                            ///< where the clip does not number its frames itself
+  bool light_has_units =
+      false;        ///< that of the file, which states no surroundings: added lights have them too
+  double fps = 30;  ///< where the clip does not number its frames itself
   std::vector<std::filesystem::path> inputs;  ///< the files that were read
 
   /// Frames of the clip; 1 without a clip.

@@ -239,7 +239,8 @@ void add_edits(SceneRows& rows) {
   rows.push_back(
       edit({.name = "add-light",
             .help = "\"TYPE KEY=VALUE ...\" adds a light: point, spot or directional; position=X,Y,Z, "
-                    "direction=X,Y,Z, intensity=VALUE, color=R,G,B; may be repeated"},
+                    "direction=X,Y,Z, intensity=VALUE (candela, lux where the file's lights have units), "
+                    "color=R,G,B; may be repeated"},
            parse_added_light));
   rows.push_back(edit({.name = "set-material",
                        .help = "\"N KEY=VALUE ...\" changes material N: color=R,G,B, emissive=R,G,B, "

@@ -99,7 +99,8 @@ struct LitScene {
 };
 Expected<void> light_scene(const BakeOptions& options, Baking& baking, LitScene& out) {
   out.scene = baking.staged.scene;
-  out.scene.lights = stage::lights_of(baking.staged.scene, options.scene.edits);
+  out.scene.lights =
+      stage::lights_of(baking.staged.scene, options.scene.edits, baking.staged.light_has_units);
   out.scene.materials = stage::materials_of(baking.staged.scene, options.scene.edits);
   auto light = bake::SurfaceLight::create(out.scene, baking.input, baking.request, baking.notes);
   if (!light) return tl::unexpected(light.error());

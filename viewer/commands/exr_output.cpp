@@ -48,7 +48,8 @@ class LightNames {
 public:
   LightNames(const RenderPlan& plan, const RenderOptions& options, double time_s) {
     const session::StagedScene& staged = *plan.staged;
-    const std::vector<Light> lights = stage::lights_of(staged.scene, options.scene.edits);
+    const std::vector<Light> lights =
+        stage::lights_of(staged.scene, options.scene.edits, staged.light_has_units);
     for (const WorldLight& placed :
          stage::placed_lights(staged.scene, options.scene.edits, staged.clip, time_s))
       names_.push_back(channel_word(lights[static_cast<std::size_t>(placed.light)].name));

@@ -65,7 +65,8 @@ struct TradeOptions {
 
 /// Whether some light has an area, or gets one.
 bool has_area_light(const RenderPlan& plan, const RenderOptions& options) {
-  const std::vector<Light> lights = stage::lights_of(plan.staged->scene, options.scene.edits);
+  const std::vector<Light> lights =
+      stage::lights_of(plan.staged->scene, options.scene.edits, plan.staged->light_has_units);
   const render::AreaLightSettings& area = plan.settings.area_lights;
   const auto own = [](const auto& list, std::size_t i) { return i < list.size() && list[i].has_value(); };
   for (std::size_t i = 0; i < lights.size(); ++i) {

@@ -27,13 +27,13 @@ Expected<void> check_edits(const SceneEdits& edits, const Scene& scene) {
   return check_numbers("--set-node", "node", edits.nodes, scene.nodes);
 }
 
-std::vector<Light> lights_of(const Scene& scene, const SceneEdits& edits) {
+std::vector<Light> lights_of(const Scene& scene, const SceneEdits& edits, bool have_units) {
   std::vector<Light> lights = scene.lights;
   for (const AddedLight& added : edits.added) {
     Light& light = lights.emplace_back();
     light.name = "added";
     light.type = added.type;
-    light.falloff = Falloff::none;
+    light.falloff = have_units ? Falloff::inverse_square : Falloff::none;
     light.color = added.color;
     light.intensity = added.intensity;
   }

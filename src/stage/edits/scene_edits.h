@@ -16,7 +16,7 @@ struct AddedLight {
   LightType type = LightType::point;
   glm::dvec3 position{0.0};              ///< in the coordinates of the scene's file
   std::optional<glm::vec3> direction{};  ///< in the file's axes, any length but zero; none: down
-  float intensity = 1;                   ///< without falloff: of the light at every distance
+  float intensity = 1;                   ///< see lights_of
   glm::vec3 color{1.0f};
 
   bool operator==(const AddedLight&) const = default;
@@ -58,8 +58,9 @@ struct SceneEdits {
 /// Fails with a sentence on numbers of lights, materials and nodes that the scene does not have.
 Expected<void> check_edits(const SceneEdits& edits, const Scene& scene);
 
-/// The scene's lights and the added ones, with their edits.
-std::vector<Light> lights_of(const Scene& scene, const SceneEdits& edits);
+/// The scene's lights and the added ones, with their edits. Intensities of added ones are candela and lux
+/// where lights `have_units`; else they are what white shows that faces the light, at every distance.
+std::vector<Light> lights_of(const Scene& scene, const SceneEdits& edits, bool have_units);
 /// Where they stand at one instant, before and with their edits. Each light of the scene has its own node.
 std::vector<WorldLight> unmoved_lights(const Scene& scene, const SceneEdits& edits, int clip, double time_s);
 std::vector<WorldLight> placed_lights(const Scene& scene, const SceneEdits& edits, int clip, double time_s);

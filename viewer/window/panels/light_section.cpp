@@ -218,7 +218,8 @@ void draw_light_section(Ui& ui) {
   ImGui::Checkbox("handles in the view", &state.light_handles);
   ui.mark("circles");
   add_lights(ui);
-  const std::vector<Light> unedited = stage::lights_of(state.scene->scene, {.added = state.edits.added});
+  const std::vector<Light> unedited =
+      stage::lights_of(state.scene->scene, {.added = state.edits.added}, state.scene->light_has_units);
   const int shown = state.selected_light;
   for (int i = 0; i < static_cast<int>(unedited.size()); ++i)
     edit_light(ui, i, unedited[static_cast<std::size_t>(i)], unedited.size() <= 4);
