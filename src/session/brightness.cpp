@@ -78,7 +78,9 @@ Expected<void> settle_brightness(const SceneSettings& settings, bool stated, Sta
   const auto metered = meter(staged, settings);
   if (!metered) return tl::unexpected(metered.error());
   const auto tone = static_cast<std::size_t>(shade::Tone::neutral);
-  if (scaled_sky) add_sky(shown_sky / metered->exposures()[tone], staged);
+  const float exposure = metered->exposures()[tone];
+  const bool as_it_is = !units && metered->one_will_do;
+  if (scaled_sky) add_sky(shown_sky / (as_it_is ? std::max(exposure, 1.0f) : exposure), staged);
   settings::SceneDisplay& display = staged.display;
   display.exposures = metered->exposures(scaled_sky ? steps_of_sky : 0);
   display.needs_exposure = automatic && (units || !metered->one_will_do);

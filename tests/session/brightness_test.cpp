@@ -203,6 +203,14 @@ TEST_F(Brightness, EmissiveMeshesThatShineAreExposedByWhatTheyLight) {
   EXPECT_TRUE(lit.display.needs_exposure && lit.added.sky && says(lit, "too much or too little"));
   EXPECT_GT(exposure(lit), 0.02f);
   EXPECT_LT(exposure(lit), 0.06f);
+  scene.materials[1].emissive = glm::vec3(4);
+  lit = staged([&] {
+    settings::SceneSettings dim = written(scene);
+    dim.emissive_lights = true;
+    return dim;
+  }());
+  EXPECT_FALSE(lit.display.needs_exposure);
+  EXPECT_LE(lit.scene.ambient_light.x, 0.14f) << "the sky is that of an exposure of 1";
   settings.sky = stage::Sky::none;
   lit = staged(settings);
   EXPECT_EQ(lit.scene.ambient_light, glm::vec3(0));

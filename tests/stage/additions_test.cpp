@@ -114,7 +114,9 @@ TEST(AddedCamera, StandsWhereItsSentenceSays) {
     Scene scene = box({0, 0, 0}, {1, 1, 1});
     scene.frame.origin = {step, 0, 0};
     add_missing_parts(scene, {.up_assumed = true});
-    const dvec3 eye = scene.frame.to_file(scene.nodes.back().translation);
+    const auto camera = std::find_if(scene.nodes.begin(), scene.nodes.end(),
+                                     [](const Node& node) { return node.camera >= 0; });
+    const dvec3 eye = scene.frame.to_file(camera->translation);
     std::string said;
     dvec3 found(0);
     for (const std::string& text : scene.warnings)
