@@ -1,6 +1,7 @@
 // The lights: on or off, colour, brightness, direction, place, size; adding and deleting them.
 #include <fmt/core.h>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 
 #include "session/scene_summary.h"
 #include "window/panels/panels.h"
@@ -177,16 +178,26 @@ void edit_light(Ui& ui, int index, const Light& light, bool open) {
   if (edit != before) ui.state.light_edit(index) = edit;
 }
 
+/// With which white at a distance shows as white in the exposure in use: candela or, of suns, lux where the
+/// file's lights have units.
+float visible_intensity(const Ui& ui, LightType type, float distance_m) {
+  if (!ui.state.scene->light_has_units) return 1;
+  const float lux = glm::pi<float>() / render_settings(ui.state.method(), {}, ui.state.display).exposure;
+  return type == LightType::directional ? lux : lux * distance_m * distance_m;
+}
+
 /// Above the middle of the scene, or of what was asked about last.
 void add_light(Ui& ui, LightType type) {
   ViewState& state = ui.state;
   const bool asked = ui.answer && !ui.answer->pixel.background;
   const glm::vec3 below = asked ? glm::vec3(ui.answer->pixel.point) : state.centre;
-  const glm::vec3 above = below + glm::vec3(0, (asked ? 0.1f : 0.35f) * state.diagonal_m, 0);
+  const float height_m = (asked ? 0.1f : 0.35f) * state.diagonal_m;
+  const glm::vec3 above = below + glm::vec3(0, height_m, 0);
   const FileFrame& frame = state.scene->scene.frame;
   stage::AddedLight light{.type = type, .position = frame.to_file(glm::dvec3(above))};
   if (type == LightType::directional)
     light.direction = glm::vec3(frame.direction_to_file(glm::normalize(glm::dvec3(-0.5, -1, -0.3))));
+  light.intensity = visible_intensity(ui, type, height_m);
   state.edits.added.push_back(light);
   state.selected_light = state.light_count() - 1;
   state.light_edit(state.selected_light) = {};
