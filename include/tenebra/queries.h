@@ -102,7 +102,7 @@ public:
 
   /// hard_mask() for one light after the other: use(i, mask) gets that of lights[i], before the next is
   /// traced. Points, up to 2^18 of them, are prepared once for all lights but where a light changes the side
-  /// that one is on.
+  /// that one is on. All lights are checked before the first call of use().
   Expected<void> hard_masks(const Geometry& geometry, const QueryPoints& points,
                             std::span<const ShadowLight> lights, const HardShadowConfig& config,
                             const std::function<void(std::size_t, std::span<const std::uint8_t>)>& use,

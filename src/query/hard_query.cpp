@@ -132,6 +132,8 @@ Expected<void> PointTracer::hard_masks(
   const parallel::FloatEnvironment ieee;
   query::TracerState& s = *state_;
   std::vector<std::uint8_t> mask(points.positions.size());
+  for (const ShadowLight& light : lights)
+    if (auto checked = check_light(light); !checked) return checked;
   if (!fits_one_portion(points)) {
     for (std::size_t l = 0; l < lights.size(); ++l) {
       if (auto done = hard_mask(geometry, points, lights[l], config, mask, stop); !done) return done;
@@ -139,8 +141,6 @@ Expected<void> PointTracer::hard_masks(
     }
     return {};
   }
-  for (const ShadowLight& light : lights)
-    if (auto checked = check_light(light); !checked) return checked;
   if (auto checked = query::check_points(points, *geometry.data_); !checked) return checked;
   s.follow(geometry.data_);
   const TriangleView triangles = s.triangles();

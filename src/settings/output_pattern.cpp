@@ -91,15 +91,16 @@ fs::path OutputPattern::file(int frame, std::string_view suffix) const {
   return fmt::format("{}{}{}{}{}", before_, number, after_, suffix, extension_);
 }
 
-Expected<void> OutputPattern::prepare_folder() const {
-  const fs::path folder = file(0).parent_path();
+Expected<void> make_folder_of(const fs::path& file) {
+  const fs::path folder = file.parent_path();
   std::error_code error;
   if (folder.empty() || fs::is_directory(folder, error)) return {};
   fs::create_directories(folder, error);
   if (error)
-    return base::fail("cannot make the folder {} for {}: {}", folder.string(), text_, error.message());
+    return base::fail("cannot make the folder {} for {}: {}", folder.string(), file.string(),
+                      error.message());
   if (!fs::is_directory(folder))
-    return base::fail("cannot write {}: {} is not a folder", text_, folder.string());
+    return base::fail("cannot write {}: {} is not a folder", file.string(), folder.string());
   return {};
 }
 

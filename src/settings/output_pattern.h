@@ -9,6 +9,9 @@
 
 namespace tenebra::settings {
 
+/// Makes the folder of a file, and those that it lies in. Fails if it cannot be made or is no folder.
+Expected<void> make_folder_of(const std::filesystem::path& file);
+
 /// A file name with at most one frame number: %d, or %0Nd padded with zeros to N digits, or two # or more,
 /// one for each digit; %% is a percent sign.
 class OutputPattern {
@@ -28,8 +31,7 @@ public:
   const std::string& text() const { return text_; }
   /// Name for `frame`, with `suffix` before the extension.
   std::filesystem::path file(int frame, std::string_view suffix = "") const;
-  /// Makes the folder of the files, and those that it lies in. Fails if it cannot be made or is no folder.
-  Expected<void> prepare_folder() const;
+  Expected<void> prepare_folder() const { return make_folder_of(file(0)); }
 
 private:
   static Expected<OutputPattern> parse_stem(const std::string& text, std::string_view extension);

@@ -18,15 +18,6 @@ glm::vec3 ColourScale::operator()(double value) const {
   return glm::mix(colour(below), colour(below + 1), static_cast<float>(at - static_cast<double>(below)));
 }
 
-double value_of(const Study& study, std::size_t i) {
-  constexpr double hour_min = 60;
-  return study.suns.timed ? study.hours.sums[i] / hour_min : study.hours.sums[i];
-}
-
-const char* what_of(const Study& study) {
-  return study.suns.timed ? "hours" : "sum";
-}
-
 ColourScale scale_of(const Study& study) {
   double most = 0;
   for (std::size_t i = 0; i < study.hours.sums.size(); ++i) most = std::max(most, value_of(study, i));

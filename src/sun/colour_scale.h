@@ -15,10 +15,6 @@ struct ColourScale {
   glm::vec3 operator()(double value) const;
 };
 
-/// Hours or, where suns have no time, the sum that receiver `i` got.
-double value_of(const Study& study, std::size_t i);
-/// "hours" or "sum".
-const char* what_of(const Study& study);
 /// Up to the largest value; 1 where there is none above 0.
 ColourScale scale_of(const Study& study);
 

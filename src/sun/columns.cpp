@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/fail.h"
+#include "base/lower_case.h"
 #include "io/input_file.h"
 
 namespace tenebra::sun {
@@ -14,21 +15,24 @@ namespace {
 
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\"";
+std::string_view trimmed(std::string_view text, std::string_view blanks = " \t\r") {
   const std::size_t first = text.find_first_not_of(blanks);
   if (first == text.npos) return {};
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-/// The cells of a line, without blanks and quotes around them.
+/// The cells of a line, without blanks and quotes around them. A comma within quotes belongs to its cell.
 void split_cells(std::string_view line, std::vector<std::string_view>& cells) {
   cells.clear();
-  for (std::size_t at = 0;;) {
-    const std::size_t comma = line.find(',', at);
-    cells.push_back(trimmed(line.substr(at, comma - at)));
-    if (comma == line.npos) return;
-    at = comma + 1;
+  std::size_t begin = 0, quotes = 0;
+  for (std::size_t at = 0; at <= line.size(); ++at) {
+    const bool ends = at == line.size() || (line[at] == ',' && quotes % 2 == 0);
+    if (ends) {
+      cells.push_back(trimmed(line.substr(begin, at - begin), " \t\r\""));
+      begin = at + 1;
+    } else if (line[at] == '"') {
+      ++quotes;
+    }
   }
 }
 
@@ -38,12 +42,6 @@ std::optional<double> finite_number(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool whole = error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
   return whole ? std::optional(value) : std::nullopt;
-}
-
-bool same_word(std::string_view a, std::string_view b) {
-  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [&](char x, char y) { return lower(x) == lower(y); });
 }
 
 /// Hands out the lines that hold something, and counts all.
@@ -80,7 +78,7 @@ Expected<Columns> read_columns(const std::filesystem::path& file, std::span<cons
   std::vector<std::optional<std::size_t>> places;
   for (const std::string_view name : names) {
     const auto found =
-        std::find_if(cells.begin(), cells.end(), [&](auto cell) { return same_word(cell, name); });
+        std::find_if(cells.begin(), cells.end(), [&](auto cell) { return base::lower_case(cell) == name; });
     places.push_back(found == cells.end() ? std::nullopt
                                           : std::optional(static_cast<std::size_t>(found - cells.begin())));
   }

@@ -5,6 +5,8 @@
 #include <iterator>
 #include <vector>
 
+#include "base/json_string.h"
+
 namespace tenebra::sun {
 namespace {
 
@@ -23,7 +25,7 @@ std::vector<std::string> names_of(const Study& study) {
   if (kind == ReceiverKind::faces) names.insert(names.end(), {"node", "material"});
   names.insert(names.end(), {"x", "y", "z"});
   if (kind != ReceiverKind::points) names.emplace_back("area_m2");
-  names.emplace_back(study.suns.timed ? "hours" : "sum");
+  names.emplace_back(what_of(study));
   if (study.suns.timed) names.insert(names.end(), {"first_sun", "last_sun"});
   if (!study.hours.months.empty())
     for (int month = 1; month <= 12; ++month) names.push_back(fmt::format("minutes_{:02}", month));
@@ -33,8 +35,11 @@ std::vector<std::string> names_of(const Study& study) {
 Cell number(double value) {
   return {fmt::format("{:.9g}", value)};
 }
-Cell coordinate(double value) {  // micrometres in map coordinates
-  return {fmt::format("{:.13g}", value)};
+Cell coordinate(double value) {  // to micrometres: vertices are floats beside the offset
+  std::string text = fmt::format("{:.6f}", value);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return {text == "-0" ? "0" : text};
 }
 
 Cell time_of(const Study& study, std::int32_t sun) {
@@ -58,8 +63,7 @@ void fill_row(const Study& study, std::size_t i, Cells& cells) {
   const glm::dvec3 place = study.scene.frame.to_file(receiver.centre);
   for (int axis = 0; axis < 3; ++axis) cells.push_back(coordinate(place[axis]));
   if (study.receivers.kind != ReceiverKind::points) cells.push_back(number(receiver.area_m2));
-  constexpr double hour_min = 60;
-  cells.push_back(number(study.suns.timed ? study.hours.sums[i] / hour_min : study.hours.sums[i]));
+  cells.push_back(number(value_of(study, i)));
   if (study.suns.timed) {
     cells.push_back(time_of(study, study.hours.first[i]));
     cells.push_back(time_of(study, study.hours.last[i]));
@@ -76,23 +80,21 @@ std::string csv_cell(const std::string& text) {
   return quoted + '"';
 }
 
-std::string json_string(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    if (static_cast<unsigned char>(c) < 0x20)
-      quoted += fmt::format("\\u{:04x}", static_cast<int>(c));
-    else
-      quoted += c;
-  }
-  return quoted + '"';
-}
 std::string json_cell(const Cell& cell) {
   if (cell.is_number) return cell.text;
-  return cell.text.empty() ? "null" : json_string(cell.text);
+  return cell.text.empty() ? "null" : base::json_string(cell.text);
 }
 
 }  // namespace
+
+double value_of(const Study& study, std::size_t i) {
+  constexpr double hour_min = 60;
+  return study.suns.timed ? study.hours.sums[i] / hour_min : study.hours.sums[i];
+}
+
+const char* what_of(const Study& study) {
+  return study.suns.timed ? "hours" : "sum";
+}
 
 std::string csv_of(const Study& study) {
   std::string out;
@@ -109,10 +111,13 @@ std::string csv_of(const Study& study) {
 
 std::string json_of(const Study& study) {
   std::string names;
-  for (const std::string& name : names_of(study)) names += (names.empty() ? "" : ", ") + json_string(name);
-  std::string out = fmt::format("{{\n\"scene\": {},\n\"suns\": {},\n\"suns_below_the_horizon\": {},\n",
-                                json_string(study.scene.name), study.suns.list.size(), study.suns.below);
-  if (study.suns.timed) out += fmt::format("\"zone\": {},\n", json_string(zone_text(study.suns.zone_min)));
+  for (const std::string& name : names_of(study))
+    names += (names.empty() ? "" : ", ") + base::json_string(name);
+  std::string out =
+      fmt::format("{{\n\"scene\": {},\n\"suns\": {},\n\"suns_below_the_horizon\": {},\n",
+                  base::json_string(study.scene.name), study.suns.list.size(), study.suns.below);
+  if (study.suns.timed)
+    out += fmt::format("\"zone\": {},\n", base::json_string(zone_text(study.suns.zone_min)));
   fmt::format_to(std::back_inserter(out), "\"columns\": [{}],\n\"rows\": [", names);
   Cells cells;
   for (std::size_t i = 0; i < study.receivers.list.size(); ++i) {

@@ -25,7 +25,7 @@ constexpr Glyph glyphs[] = {
 
 // Pixels.
 constexpr int edge = 16, bar_width = 20, dot = 2, letter_height = 7 * dot, letter_step = 6 * dot;
-constexpr int legend_width = 3 * edge / 2 + bar_width + 9 * letter_step, least_height = 160;
+constexpr int legend_width = 3 * edge / 2 + bar_width + 11 * letter_step, least_height = 160;
 constexpr glm::vec3 black(0);
 
 class Canvas {
@@ -33,8 +33,8 @@ public:
   Canvas(int width, int height)
       : image_{width, height, 3, std::vector<std::uint8_t>(std::size_t{3} * width * height, 255)} {}
   void fill(int x, int y, int width, int height, const glm::vec3& colour) {
-    for (int row = y; row < y + height; ++row)
-      for (int column = x; column < x + width; ++column)
+    for (int row = y; row < std::min(y + height, image_.height); ++row)
+      for (int column = x; column < std::min(x + width, image_.width); ++column)
         for (int c = 0; c < 3; ++c)
           image_.pixels[3 * (static_cast<std::size_t>(row) * image_.width + column) + c] =
               static_cast<std::uint8_t>(std::lround(255 * colour[c]));
@@ -67,7 +67,7 @@ void draw_legend(Canvas& canvas, int x, int height, const Study& study, const Co
   for (int i = 0; i <= labels; ++i) {
     const int y = edge + (height - letter_height) * (labels - i) / labels;
     canvas.write(x + bar_width + edge / 2, y,
-                 fmt::format("{:.3g}{}", scale.most * i / labels, study.suns.timed ? " h" : ""));
+                 fmt::format("{:.4g}{}", scale.most * i / labels, study.suns.timed ? " h" : ""));
   }
 }
 

@@ -20,7 +20,7 @@ struct Position {
 enum class Refraction { none, standard };
 
 /// The sun at `utc_s`, seconds since 1970-01-01 00:00 UTC, after Meeus, Astronomical Algorithms, 2nd edition,
-/// chapters 12, 13, 22 and 25, with the terms of VSOP87 that count: from 1950 to 2100 within 0.002 degrees of
+/// chapters 12, 13, 22 and 25, with the terms of VSOP87 that count: from 1950 to 2100 within 0.003 degrees of
 /// Reda and Andreas 2004 (SPA).
 Position position(const Place& place, double utc_s, Refraction refraction = Refraction::none);
 

@@ -27,9 +27,9 @@ struct SunHours {
 };
 
 /// The same bytes for any number of threads and vector level. `ends`: one past the last point of each
-/// receiver, ascending; the last one is the number of points. Takes 24 bytes for each receiver (120 with
-/// months) and some 100 for each of 2^18 points at a time. Fails as PointTracer does, with "stopped" soon
-/// after `stop`.
+/// receiver, ascending; the last one is the number of points. With `ends` takes 20 bytes for each
+/// receiver (116 with months) and some 100 for each of 2^18 points at a time. Fails as PointTracer does, with
+/// "stopped" soon after `stop`.
 Expected<SunHours> sun_hours(const Geometry& geometry, const QueryPoints& points,
                              std::span<const std::uint32_t> ends, std::span<const Sun> suns,
                              const HoursConfig& config, const StopFlag* stop = nullptr,

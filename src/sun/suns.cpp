@@ -69,8 +69,13 @@ Expected<Suns> read_suns(const std::filesystem::path& file, const FileFrame& fra
     if (!(length > 0) || !std::isfinite(length))
       return base::fail("{}: sun {} has no direction, expected x, y, z that are not all 0", file.string(),
                         i + 1);
-    if (weight < 0)
-      return base::fail("{}: sun {} has the weight {}, expected 0 or more", file.string(), i + 1, weight);
+    constexpr double most_weight = 1e30;  // sums of all suns stay finite
+    if (!(weight >= 0 && weight <= most_weight))
+      return base::fail("{}: sun {} has the weight {}, expected 0 to {}", file.string(), i + 1, weight,
+                        most_weight);
+    if (!axes && std::abs(v[4][i]) > 90)
+      return base::fail("{}: sun {} has the altitude {}, expected -90 to 90 degrees", file.string(), i + 1,
+                        v[4][i]);
     add_sun({given / length, weight, 0, 0}, suns);
   }
   return suns;

@@ -211,6 +211,7 @@ TEST_F(Brightness, EmissiveMeshesThatShineAreExposedByWhatTheyLight) {
   }());
   EXPECT_FALSE(lit.display.needs_exposure);
   EXPECT_LE(lit.scene.ambient_light.x, 0.14f) << "the sky is that of an exposure of 1";
+  EXPECT_GT(lit.scene.ambient_light.x, 0.03f);
   settings.sky = stage::Sky::none;
   lit = staged(settings);
   EXPECT_EQ(lit.scene.ambient_light, glm::vec3(0));

@@ -101,7 +101,8 @@ TEST(SunHours, MapCoordinatesChangeNoByte) {
 TEST(SunHours, ThreadsChangeNoByte) {
   const Scene scene = wall_scene();
   const FrameGeometry frame = frame_of(scene);
-  const Receivers faces = face_receivers(scene, frame, {.per_face = 400}).value();
+  const Receivers faces = ground_receivers(frame, scene.frame, 0.5, 0.5).value();
+  ASSERT_GT(faces.positions.size(), 4096u) << "enough for several threads";
   for (const double disc : {0.0, 0.53}) {
     std::vector<SunHours> hours;
     for (const int threads : {1, 3})
@@ -112,6 +113,8 @@ TEST(SunHours, ThreadsChangeNoByte) {
       });
     EXPECT_EQ(hours[0].sums, hours[1].sums);
     EXPECT_EQ(hours[0].months, hours[1].months);
+    EXPECT_EQ(hours[0].first, hours[1].first);
+    EXPECT_EQ(hours[0].last, hours[1].last);
     EXPECT_EQ(hours[0].months[5], hours[0].sums[0]);  // June
   }
 }

@@ -77,6 +77,9 @@ TEST(Suns, OfAFile) {
   EXPECT_EQ(angles.below, 1u);
   EXPECT_EQ(angles.list[0].weight, 2);
   EXPECT_FALSE(angles.timed);
+  const Suns quoted = suns_in("\"name, of it\",x,y,z\n\"a, 1\",0,1,0\n").value();
+  ASSERT_EQ(quoted.list.size(), 1u);
+  EXPECT_EQ(quoted.list[0].to_sun, glm::dvec3(0, 1, 0)) << "a comma within quotes belongs to its cell";
   const Suns axes = suns_in("x,y,z\n3,0,3\n", UpAxis::z).value();
   EXPECT_NEAR(glm::length(axes.list[0].to_sun - angles.list[0].to_sun), 0, 1e-15);
 }
@@ -93,6 +96,8 @@ TEST(Suns, RefusesFilesInASentence) {
   EXPECT_NE(refusal("x,y,z\n1,nan,0\n").find("found nan for y"), std::string::npos);
   EXPECT_NE(refusal("x,y,z\n0,0,0\n").find("sun 1 has no direction"), std::string::npos);
   EXPECT_NE(refusal("x,y,z,weight\n0,1,0,-1\n").find("weight -1"), std::string::npos);
+  EXPECT_NE(refusal("x,y,z,weight\n0,1,0,1e308\n").find("weight 1e+308"), std::string::npos);
+  EXPECT_NE(refusal("azimuth,altitude\n0,120\n").find("altitude 120"), std::string::npos);
 }
 
 TEST(Suns, AMillionAtMost) {

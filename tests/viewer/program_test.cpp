@@ -69,6 +69,7 @@ TEST(Program, HelpOfRenderBeginsWithWhatPeopleAskForFirst) {
       help.output.find("--help TOPIC, one of scene, camera, picture, shadows, ao, output, run, paper or all"),
       std::string::npos)
       << help.output;
+  EXPECT_EQ(tenebra({"render", "a.glb", "--frames", "all", "--help"}).output, help.output);
   EXPECT_GT(options_in(tenebra({"render", "-h", "all"}).output).size(), 60u);
   EXPECT_EQ(tenebra({"info", "--help", "all"}).output, tenebra({"info", "--help"}).output);
 }

@@ -2,6 +2,7 @@
 // masks show is compared with exact arithmetic on the files' own numbers by verify.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <string>
@@ -63,8 +64,9 @@ TEST_F(SharedCases, OneBoxIsReadTheSameHoweverItIsWritten) {
                                        "gltf-far-from-origin/gltf-offset-1e3/m.gltf",
                                        "gltf-far-from-origin/gltf-offset-1e6/m.gltf",
                                        "gltf-far-from-origin/gltf-offset-1e7/m.gltf"};
+  const std::string first = mask(files[0]);
   for (const std::string& file : files) {
-    EXPECT_EQ(mask(file), mask(files[0])) << file;
+    EXPECT_EQ(mask(file), first) << file;
     EXPECT_EQ(info(file)["counts"]["triangles"], 14) << file;
     expect_verified(file);
   }
@@ -91,19 +93,20 @@ TEST_F(SharedCases, OneCubeIsReadTheSameHoweverItIsWritten) {
                                        "obj-mtllib-with-spaces/obj-unicode/Brücke ñ 日本.obj",
                                        "obj-comment-behind-face/obj-comments-inline/m.obj",
                                        "obj-meshlab-tr/m.obj"};
+  const std::string first = mask(files[0]);
   for (const std::string& file : files) {
-    EXPECT_EQ(mask(file), mask(files[0])) << file;
+    EXPECT_EQ(mask(file), first) << file;
     EXPECT_EQ(info(file)["counts"]["triangles"], 12) << file;
     expect_verified(file);
   }
 }
 
 TEST_F(SharedCases, OneTetrahedronIsReadTheSameHoweverItIsWritten) {
-  const std::string first = "obj-comment-behind-face/obj-f-comment/m.obj";
+  const std::string first = mask("obj-comment-behind-face/obj-f-comment/m.obj");
   for (const std::string file :
        {"obj-missing-normals/obj-missing-vn/m.obj", "obj-missing-normals/obj-missing-vt/m.obj",
         "obj-mtllib-with-spaces/obj-mtl-space/my model.obj"}) {
-    EXPECT_EQ(mask(file), mask(first)) << file;
+    EXPECT_EQ(mask(file), first) << file;
     EXPECT_EQ(info(file)["counts"]["triangles"], 4) << file;
     expect_verified(file);
   }

@@ -91,7 +91,8 @@ void print_sun_notes(const SunOptions& options, const sun::Suns& suns, const Fra
 }
 
 bool spans_months(const sun::Suns& suns) {
-  return suns.timed && !suns.list.empty() && suns.list.front().month != suns.list.back().month;
+  return suns.timed && std::ranges::any_of(
+                           suns.list, [&](const sun::Sun& s) { return s.month != suns.list.front().month; });
 }
 
 Expected<sun::SunHours> count_hours(const SunOptions& options, const FrameGeometry& frame,
@@ -174,6 +175,7 @@ Expected<void> check_sun_outputs(const SunScene& scene, const SunOptions& option
               OutputName{"--json", options.json}, OutputName{"--png", options.plan},
               OutputName{"--tiff", options.raster}}) {
           if (file.empty()) continue;
+          if (auto made = settings::make_folder_of(file); !made) return made;
           if (auto used = use({option, file}); !used) return used;
         }
         return {};

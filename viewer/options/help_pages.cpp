@@ -107,6 +107,12 @@ std::string first_footer(const CLI::App& command, const std::vector<std::string_
                      paper, everything);
 }
 
+std::string topic_or_none(const std::string& word) {
+  const bool is_known = word == paper || word == everything ||
+                        std::ranges::any_of(topics, [&](const Topic& topic) { return topic.word == word; });
+  return is_known ? word : std::string();
+}
+
 }  // namespace
 
 std::shared_ptr<CLI::Formatter> help_format() {
@@ -114,20 +120,20 @@ std::shared_ptr<CLI::Formatter> help_format() {
 }
 
 std::string help_topic(std::span<const std::string> arguments) {
-  for (const std::string& argument : arguments)
-    if (argument == paper || argument == everything ||
-        std::ranges::any_of(topics, [&](const Topic& topic) { return topic.word == argument; }))
-      return argument;
-  return "";
+  const auto help = std::ranges::find_if(
+      arguments, [](const std::string& argument) { return argument == "--help" || argument == "-h"; });
+  if (help == arguments.end()) return "";
+  if (help + 1 != arguments.end()) return topic_or_none(*(help + 1));
+  return arguments.size() == 3 ? topic_or_none(arguments[1]) : "";
 }
 
 std::string help_page(CLI::App& program, const std::string& topic) {
   if (program.get_subcommands().empty()) return program.help();
   CLI::App& command = *program.get_subcommands().back();
   const std::vector<std::string_view> others = topics_of(command);
+  if (topic == paper && !settings_by(command, paper_option).empty()) return help_of_paper(command);
   if (others.size() < fewest_topics) return program.help();
   if (topic == everything) return program.help() + "\n" + help_of_paper(command);
-  if (topic == paper) return help_of_paper(command);
   const auto chosen = std::ranges::find_if(topics, [&](const Topic& other) { return other.word == topic; });
   const bool is_first = chosen == topics.end();
   command.formatter(is_first

@@ -16,7 +16,8 @@ namespace tenebra::viewer {
 /// The columns of all help, and the options that are used most in the order in which people ask for them.
 std::shared_ptr<CLI::Formatter> help_format();
 
-/// The first word of `arguments` that names a page; empty: none does.
+/// The page that the word behind --help names, or WORD of `help COMMAND WORD`, which arrives as COMMAND WORD
+/// --help; empty: none.
 std::string help_topic(std::span<const std::string> arguments);
 
 /// The help of the command that `program` was given; of `program` where it was given none. Where the command

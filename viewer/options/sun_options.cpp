@@ -1,6 +1,10 @@
 #include "options/sun_options.h"
 
+#include <algorithm>
+#include <initializer_list>
+
 #include "base/fail.h"
+#include "base/lower_case.h"
 #include "formats/format_list.h"
 #include "options/memory_option.h"
 #include "options/settings_names.h"
@@ -51,8 +55,10 @@ Expected<double> parse_cell(const std::string& text) {
 }
 Expected<int> parse_epsg(const std::string& text) {
   const auto number = parse_count(text);
-  if (!number || *number < 1024 || *number > 32766)
-    return base::fail("found {}, expected the number of a projected system of EPSG's, like 25832", text);
+  const bool in_degrees = number && (*number == 4326 || *number == 4258 || *number == 4269);
+  if (!number || *number < 1024 || *number > 32766 || in_degrees)
+    return base::fail("found {}{}, expected the number of a projected system of EPSG's, like 25832", text,
+                      in_degrees ? ", which is in degrees" : "");
   return *number;
 }
 Expected<int> parse_per_face(const std::string& text) {
@@ -93,15 +99,16 @@ void add_suns(CLI::App& command, SunOptions& options) {
                 "Days from A to B. Of each N days the middle one is computed\nand counts for all of them [1]")
           .type_name("A:B[:N]"),
       add_value(command, "--step", options.step_min, parse_step,
-                "Minutes between suns; each stands in the middle of its step [10]")
+                "Minutes between suns, made to divide the day; each stands in\nthe middle of its step [10]")
           .type_name("MIN"),
       add_value(command, "--zone", options.zone_min, sun::parse_zone,
                 "Hours and minutes ahead of UTC that days and times are given\n"
                 "in, as of that day: daylight saving is not looked up [UTC]")
           .type_name("+HH:MM"),
-      add_value(command, "--north", options.north_deg, parse_turn,
-                "How far true north is turned from the file's north (its y if\n"
-                "z is up, its -z if y is), clockwise seen from above [0]")
+      add_value(
+          command, "--north", options.north_deg, parse_turn,
+          "How far true north is turned from the file's north (its y if\n"
+          "z is up, its -z if y is), clockwise seen from above; in maps\nminus the meridian convergence [0]")
           .type_name("DEG"),
       add_flag(command, "--refraction", options.refraction,
                "Count what air lifts the sun by, half a degree at the horizon"),
@@ -132,7 +139,7 @@ void add_where(CLI::App& command, SunOptions& options) {
                 "Points on each face, rounded up to a square number [16]")
           .type_name("N"),
       add_value(command, "--per-m2", options.faces.per_m2, parse_positive,
-                "Points per square metre of a face instead")
+                "Points per square metre of a face instead, at most 65,536")
           .type_name("D"),
       add_value(command, "--ground", options.ground, parse_height,
                 "In place of faces a horizontal plane at this height of the\nfile, below the whole scene as "
@@ -160,8 +167,22 @@ Expected<void> check_suns(const CLI::App& command, const SunOptions& options) {
   return {};
 }
 
+/// Files whose names end otherwise would be taken for something else.
+Expected<void> check_names(const SunOptions& options) {
+  const auto check = [](const char* option, const std::string& name,
+                        std::initializer_list<std::string_view> endings) -> Expected<void> {
+    const std::string extension = base::extension_of(name);
+    if (name.empty() || std::find(endings.begin(), endings.end(), extension) != endings.end()) return {};
+    return base::fail("{}: found {}, expected a name that ends in {}", option, name, *endings.begin());
+  };
+  if (auto checked = check("-o", options.model, {".glb"}); !checked) return checked;
+  if (auto checked = check("--png", options.plan, {".png"}); !checked) return checked;
+  return check("--tiff", options.raster, {".tif", ".tiff"});
+}
+
 Expected<void> check_where(const CLI::App& command, const SunOptions& options) {
-  const bool ground = options.ground.has_value(), points = !options.points.empty();
+  const bool ground = options.ground.has_value(), points = was_given(command, "--points");
+  if (points && options.points.empty()) return base::fail("--points: found nothing, expected a file");
   if (ground && points) return base::fail("--ground excludes --points");
   for (const char* name : {"--node", "--material", "--upward", "--both-sides", "--per-face", "--per-m2"})
     if ((ground || points) && was_given(command, name))
@@ -171,6 +192,7 @@ Expected<void> check_where(const CLI::App& command, const SunOptions& options) {
     if (was_given(command, name) && !ground) return base::fail("{} is for --ground", name);
   if (points && !options.model.empty())
     return base::fail("-o is for faces and --ground, which have a shape; --csv and --json are for points");
+  if (auto checked = check_names(options); !checked) return checked;
   if (was_given(command, "--epsg") && options.raster.empty()) return base::fail("--epsg is for --tiff");
   if (was_given(command, "--full") && options.model.empty() && options.plan.empty())
     return base::fail("--full is for -o and --png");

@@ -6,47 +6,13 @@
 #include <cstddef>
 #include <string>
 
+#include "base/json_string.h"
 #include "render/log/stage_sets.h"
 
 namespace tenebra::render {
 namespace {
 
 constexpr double us_per_ms = 1000.0;
-
-/// Length of the well-formed UTF-8 sequence at the start of `text` (RFC 3629); 0 if there is none.
-std::size_t utf8_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0; };
-  const auto continues = [&](std::size_t i) { return (byte(i) & 0xc0) == 0x80; };
-  const int first = byte(0);
-  if (first < 0x80) return 1;
-  if (first >= 0xc2 && first < 0xe0 && continues(1)) return 2;
-  const int second = byte(1);
-  const bool second_is_short = (first == 0xe0 && second < 0xa0) || (first == 0xf0 && second < 0x90);
-  const bool second_is_beyond = (first == 0xed && second > 0x9f) || (first == 0xf4 && second > 0x8f);
-  if (second_is_short || second_is_beyond || !continues(1) || !continues(2)) return 0;
-  if (first >= 0xe0 && first < 0xf0) return 3;
-  return first >= 0xf0 && first < 0xf5 && continues(3) ? 4 : 0;
-}
-
-/// A JSON string; bytes that are not UTF-8 (file names may hold any) become question marks.
-std::string json_string(std::string_view text) {
-  std::string json = "\"";
-  while (!text.empty()) {
-    const std::size_t length = utf8_length(text);
-    const char c = text.front();
-    if (length == 0) {
-      json += '?';
-    } else if (c == '"' || c == '\\') {
-      json.append({'\\', c});
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      json += fmt::format("\\u{:04x}", static_cast<int>(c));
-    } else {
-      json.append(text.substr(0, length));
-    }
-    text.remove_prefix(std::max<std::size_t>(length, 1));
-  }
-  return json + "\"";
-}
 
 std::string slice(std::string_view name, double begin_ms, double duration_ms, std::string_view arguments) {
   return fmt::format(
@@ -91,8 +57,8 @@ Expected<FrameTrace> FrameTrace::create(const std::filesystem::path& path,
       "[\n{\"name\":\"process_name\",\"ph\":\"M\",\"pid\":1,\"tid\":1,\"args\":{\"name\":\"tenebra\"}},\n"
       "{\"name\":\"settings\",\"ph\":\"i\",\"s\":\"g\",\"pid\":1,\"tid\":1,\"ts\":0,\"args\":{";
   for (const LogSetting& setting : settings) {
-    head += (&setting == settings.data() ? "" : ",\n") + json_string(setting.name) + ":" +
-            json_string(setting.value);
+    head += (&setting == settings.data() ? "" : ",\n") + base::json_string(setting.name) + ":" +
+            base::json_string(setting.value);
   }
   head += "}}";
   if (auto written = file->begin(head); !written) return tl::unexpected(written.error());

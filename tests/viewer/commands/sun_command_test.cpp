@@ -32,7 +32,7 @@ std::vector<std::string> asked(const std::string& scene, std::vector<std::string
 TEST(SunCommand, FacesAsColoursAndTables) {
   const TemporaryFolder folder;
   const auto result =
-      tenebra(asked(write_map(folder), {"-o", folder / "hours.glb", "--csv", folder / "hours.csv", "--json",
+      tenebra(asked(write_map(folder), {"-o", folder / "hours.glb", "--csv", folder / "new/hours.csv", "--json",
                                         folder / "hours.json", "--full", "16"}));
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_TRUE(result.output.starts_with("4 faces, 64 points, 16 suns, hours ")) << result.output;
@@ -40,7 +40,7 @@ TEST(SunCommand, FacesAsColoursAndTables) {
   const auto model = formats::import_scene(folder / "hours.glb");
   ASSERT_TRUE(model.has_value()) << model.error().message;
   EXPECT_EQ(model->meshes.at(0).colors.size(), 12u);
-  const std::string csv = io::read_file(folder / "hours.csv", std::size_t{1} << 24).value();
+  const std::string csv = io::read_file(folder / "new/hours.csv", std::size_t{1} << 24).value();
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5);
   EXPECT_TRUE(std::filesystem::exists(folder / "hours.json"));
 }
@@ -66,6 +66,9 @@ TEST(SunCommand, SaysWhatIsWrong) {
       {asked(map, {"--day", "2026-02-30"}), "2026-02-30"},
       {asked(map, {"--png", folder / "plan.png"}), "--png is for --ground"},
       {asked(map, {"--ground", "0", "--epsg", "25832"}), "--epsg is for --tiff"},
+      {asked(map, {"--ground", "0", "--tiff", csv + ".tif", "--epsg", "4326"}), "which is in degrees"},
+      {asked(map, {"-o", folder / "hours.png"}), "ends in .glb"},
+      {asked(map, {"--points", ""}), "--points: found nothing"},
       {asked(map, {"--full", "3"}), "--full is for -o and --png"},
       {asked(map, {"--csv", map}), "map.obj"},
       {asked(map, {"--node", "tower"}), "found no node called tower"}};

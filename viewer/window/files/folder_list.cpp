@@ -6,19 +6,13 @@
 #include <string_view>
 
 #include "base/fail.h"
+#include "base/lower_case.h"
 #include "formats/format_list.h"
 
 namespace tenebra::viewer {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string lower(std::string text) {
-  for (char& c : text) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return text;
-}
 
 }  // namespace
 
@@ -46,7 +40,7 @@ Expected<FolderList> list_folder(const fs::path& folder) {
   }
   if (error) return base::fail("{}: {}", list.folder.string(), error.message());
   std::sort(list.entries.begin(), list.entries.end(), [](const FolderEntry& a, const FolderEntry& b) {
-    const std::string left = lower(a.name), right = lower(b.name);
+    const std::string left = base::lower_case(a.name), right = base::lower_case(b.name);
     return std::tie(b.folder, left, a.name) < std::tie(a.folder, right, b.name);
   });
   return list;
@@ -60,7 +54,7 @@ fs::path typed_path(const std::string& text, const fs::path& folder) {
 }
 
 bool matches(const std::string& name, const std::string& part) {
-  return lower(name).find(lower(part)) != std::string::npos;
+  return base::lower_case(name).find(base::lower_case(part)) != std::string::npos;
 }
 
 }  // namespace tenebra::viewer
