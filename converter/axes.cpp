@@ -2,8 +2,9 @@
 
 #include <assimp/scene.h>
 
+#include <cmath>
 #include <cstdint>
-#include <cstdlib>
+#include <string>
 
 namespace tenebra::converter {
 namespace {
@@ -26,16 +27,18 @@ bool is_turned(const aiMatrix4x4& matrix) {
 
 }  // namespace
 
-void turn_upright(const aiScene& scene) {
-  if (scene.mRootNode == nullptr || scene.mMetaData == nullptr) return;
+bool turn_upright(const aiScene& scene) {
+  if (scene.mRootNode == nullptr || scene.mMetaData == nullptr) return true;
   aiMatrix4x4 turn;
   for (unsigned row = 0; row < 3; ++row) turn[row][row] = 0;
   const aiMetadata& stated = *scene.mMetaData;
   if (!take_axis(stated, "CoordAxis", turn[0]) || !take_axis(stated, "UpAxis", turn[1]) ||
-      !take_axis(stated, "FrontAxis", turn[2]) || turn.Determinant() != 1)
-    return;  // not three axes, or those of a mirror
+      !take_axis(stated, "FrontAxis", turn[2]))
+    return true;
+  if (const float volume = turn.Determinant(); volume != 1) return volume == 0;  // 0: not three axes
   aiMatrix4x4& root = scene.mRootNode->mTransformation;
   if (!is_turned(root)) root = turn * root;
+  return true;
 }
 
 }  // namespace tenebra::converter

@@ -5,15 +5,18 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tenebra::converter {
 
-/// Opens files in one folder for reading, and nothing else: links and `..` that lead out are refused, nothing
-/// is written, made or deleted.
+/// Opens one file, which may be a link, and files in one folder for reading, nothing else: other links and
+/// `..` that lead out are refused, nothing is written, made or deleted.
 class ConfinedFiles : public Assimp::DefaultIOSystem {
 public:
-  explicit ConfinedFiles(const std::filesystem::path& root) : root_(std::filesystem::canonical(root)) {}
+  /// `main` is known by its text.
+  ConfinedFiles(const std::filesystem::path& root, std::string main)
+      : root_(std::filesystem::canonical(root)), main_(std::move(main)) {}
 
   bool Exists(const char* file) const override;
   Assimp::IOStream* Open(const char* file, const char* mode) override;
@@ -27,6 +30,7 @@ private:
   bool is_inside(const char* file) const;
 
   std::filesystem::path root_;
+  std::string main_;
   std::vector<std::string> opened_;
 };
 

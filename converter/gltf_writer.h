@@ -41,6 +41,8 @@ public:
   const std::vector<std::string>& left_out() const { return left_out_; }  ///< sentences
 
 private:
+  void leave_out(const char* sentence);  ///< says it once
+
   void add_materials();
   Json material(const aiMaterial& source, bool all_clear);
   Json texture(const aiMaterial& source, aiTextureType type);
@@ -63,6 +65,7 @@ private:
   std::filesystem::path folder_;
   Glb glb_;
   std::vector<std::string> left_out_;
+  std::vector<const aiNode*> nodes_;                ///< of glTF's first nodes
   std::map<std::string, std::size_t> node_index_;   ///< the first of each name
   std::map<std::string, std::size_t> image_index_;  ///< textures by the picture's name
   std::map<const aiMesh*, Json> primitive_of_;      ///< those that are written

@@ -2,6 +2,7 @@
 
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -26,7 +27,9 @@ void limit_this_process(std::uint64_t file_bytes) {
   limit(RLIMIT_CPU, 60 + file_bytes / mib);
   limit(RLIMIT_FSIZE, 0);
   limit(RLIMIT_CORE, 0);
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const pid_t parent = getppid();
+  prctl(PR_SET_PDEATHSIG, SIGKILL);         // sent when the thread ends that started this, which waits for it
+  if (getppid() != parent) raise(SIGKILL);  // it ended just before
 }
 
 }  // namespace tenebra::converter

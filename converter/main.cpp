@@ -2,7 +2,7 @@
 // starts it for formats that it has no reader for, and checks what it gets as it checks any file; what goes
 // wrong here goes wrong in a process with limits. Only files in FOLDER are read, and none is written: both
 // outputs have to be pipes. Standard error gets one sentence if it fails (exit code 1; 2 if memory ran out),
-// else a line "reads FILE" for each file and a sentence for each thing that was left out.
+// else a sentence for each thing that was left out and a line "reads FILE" for each file.
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -31,7 +31,7 @@ constexpr unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType | aiPro
 
 int convert(const std::filesystem::path& file, const std::filesystem::path& folder) {
   Assimp::Importer importer;
-  auto* const files = new ConfinedFiles(folder);
+  auto* const files = new ConfinedFiles(folder, file.string());
   importer.SetIOHandler(files);  // which deletes it
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   const aiScene* const scene = importer.ReadFile(file.string(), steps);
@@ -40,12 +40,21 @@ int convert(const std::filesystem::path& file, const std::filesystem::path& fold
     std::fprintf(stderr, "%s\n", why.c_str());
     return why.find("bad_alloc") == std::string::npos ? failed : out_of_memory;
   }
-  turn_upright(*scene);
+  const bool upright = turn_upright(*scene);
   GltfWriter writer(*scene, file.parent_path());
   writer.write(stdout);
-  for (const std::string& file_read : files->opened()) std::fprintf(stderr, "reads %s\n", file_read.c_str());
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    std::fprintf(stderr, "cannot write the scene\n");
+    return failed;
+  }
+  if (!upright)
+    std::fprintf(
+        stderr,
+        "The file states left-handed axes, which are not followed: it may be mirrored or lie on its side.\n");
   for (const std::string& sentence : writer.left_out()) std::fprintf(stderr, "%s\n", sentence.c_str());
-  return std::fflush(stdout) == 0 ? 0 : failed;
+  for (const std::string& name : files->opened())
+    if (name.find('\n') == std::string::npos) std::fprintf(stderr, "reads %s\n", name.c_str());
+  return 0;
 }
 
 }  // namespace
@@ -59,7 +68,9 @@ int main(int count, char** words) {
   const auto size = std::filesystem::file_size(words[1], error);
   limit_this_process(error ? 0 : size);
   try {
-    return convert(std::filesystem::absolute(words[1]), words[2]);
+    const auto file = std::filesystem::absolute(words[1]), folder = std::filesystem::absolute(words[2]);
+    std::filesystem::current_path(file.parent_path());  // Assimp takes names in the file as they are
+    return convert(file, folder);
   } catch (const std::bad_alloc&) {
     return out_of_memory;
   } catch (const std::exception& fault) {

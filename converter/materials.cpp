@@ -53,14 +53,14 @@ Json GltfWriter::texture(const aiMaterial& source, aiTextureType type) {
     return nullptr;
   const aiTexture* const embedded = scene_.GetEmbeddedTexture(name.C_Str());
   if (embedded != nullptr && embedded->mHeight != 0) {
-    left_out_.push_back("A picture in the file, stored without a format, is left out.");
+    leave_out("A picture in the file, stored without a format, is left out.");
     return nullptr;
   }
   return {{"index", image(name.C_Str())}, {"texCoord", std::min(set, 1u)}};
 }
 
 Json GltfWriter::material(const aiMaterial& source, bool all_clear) {
-  Json pbr{{"metallicFactor", number_of(source, AI_MATKEY_METALLIC_FACTOR, 0)},
+  Json pbr{{"metallicFactor", std::clamp(number_of(source, AI_MATKEY_METALLIC_FACTOR, 0), 0.0f, 1.0f)},
            {"roughnessFactor", std::clamp(number_of(source, AI_MATKEY_ROUGHNESS_FACTOR, 1), 0.0f, 1.0f)}};
   Json written{{"name", source.GetName().C_Str()}};
   const float opacity = all_clear ? 1 : opacity_of(source);
@@ -70,6 +70,12 @@ Json GltfWriter::material(const aiMaterial& source, bool all_clear) {
   pbr["baseColorFactor"].push_back(opacity);
   aiString clear;
   const bool cut = source.GetTexture(aiTextureType_OPACITY, 0, &clear) == aiReturn_SUCCESS;
+  if (cut) {  // glTF has opacity in the alpha of the colour's picture
+    const auto known = image_index_.find(clear.C_Str());
+    if (picture.is_null() || known == image_index_.end() || picture["index"] != known->second)
+      leave_out(
+          "Opacity in a picture apart from that of the colour is left out: put it into the alpha of that.");
+  }
   if (!picture.is_null()) pbr["baseColorTexture"] = std::move(picture);
   if (cut || opacity < 1) written["alphaMode"] = opacity < 1 ? "BLEND" : "MASK";
   if (Json normals = texture(source, aiTextureType_NORMALS); !normals.is_null())
@@ -92,7 +98,7 @@ void GltfWriter::add_materials() {
   // Some programs write opacity the other way round.
   const bool all_clear =
       scene_.mNumMaterials > 0 && all([](const aiMaterial* m) { return opacity_of(*m) == 0; });
-  if (all_clear) left_out_.push_back("All materials have opacity 0, which is taken for opaque.");
+  if (all_clear) leave_out("All materials have opacity 0, which is taken for opaque.");
   for (unsigned i = 0; i < scene_.mNumMaterials; ++i)
     glb_.add("materials", material(*scene_.mMaterials[i], all_clear));
 }

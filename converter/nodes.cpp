@@ -93,7 +93,12 @@ GltfWriter::GltfWriter(const aiScene& scene, const std::filesystem::path& folder
   add_animations();
   if (std::any_of(scene.mMeshes, scene.mMeshes + scene.mNumMeshes,
                   [](const aiMesh* mesh) { return mesh->mNumAnimMeshes > 0; }))
-    left_out_.push_back("Morph targets are left out: glTF keeps them.");
+    leave_out("Morph targets are left out: glTF keeps them.");
+}
+
+void GltfWriter::leave_out(const char* sentence) {
+  if (std::find(left_out_.begin(), left_out_.end(), sentence) == left_out_.end())
+    left_out_.emplace_back(sentence);
 }
 
 /// Without recursion: a file may nest nodes as deep as it likes.
@@ -108,6 +113,7 @@ void GltfWriter::add_nodes() {
     Json written{{"name", node->mName.C_Str()}};
     if (!node->mTransformation.IsIdentity()) written["matrix"] = matrix_of(node->mTransformation);
     const std::size_t index = glb_.add("nodes", std::move(written));
+    nodes_.push_back(node);
     node_index_.try_emplace(node->mName.C_Str(), index);
     if (parent != no_parent) glb_.json["nodes"][parent]["children"].push_back(index);
     if (node->mNumMeshes > 0) with_meshes.emplace_back(node, index);
@@ -143,7 +149,7 @@ void GltfWriter::add_lights() {
   for (unsigned i = 0; i < scene_.mNumLights; ++i) {
     const aiLight& source = *scene_.mLights[i];
     if (source.mType == aiLightSource_AMBIENT || source.mType == aiLightSource_UNDEFINED) {
-      left_out_.push_back("A light of no place and direction is left out.");
+      leave_out("A light of no place and direction is left out.");
       continue;
     }
     hang(source.mName, looking(source.mPosition, source.mDirection, source.mUp),
@@ -180,10 +186,10 @@ void GltfWriter::add_animations() {
       const auto found = node_index_.find(channel.mNodeName.C_Str());
       if (found == node_index_.end()) continue;
       Json& node = glb_.json["nodes"][found->second];
-      if (const aiNode* const rest = scene_.mRootNode->FindNode(channel.mNodeName); node.contains("matrix")) {
+      if (node.contains("matrix")) {
         aiVector3D scale, place;
         aiQuaternion turn;
-        rest->mTransformation.Decompose(scale, turn, place);
+        nodes_[found->second]->mTransformation.Decompose(scale, turn, place);
         node.erase("matrix");
         node["translation"] = list(place);
         node["rotation"] = list(turn);

@@ -1,5 +1,7 @@
 #include "formats/format_list.h"
 
+#include <algorithm>
+
 #include "base/lower_case.h"
 #include "formats/converted.h"
 #include "formats/place_scene.h"

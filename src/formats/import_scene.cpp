@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/fail.h"
+#include "base/lower_case.h"
 #include "formats/format_list.h"
 #include "formats/place_scene.h"
 
@@ -44,7 +45,7 @@ std::string other_content(const fs::path& path) {
   if (bytes.empty()) return "found an empty file, expected a scene: copy it again";
   const FileFormat* const format = format_of(path);
   const bool may_be_zip = format != nullptr && format->reader == "Assimp";  // as 3MF is
-  const bool is_blend = path.extension() == ".blend";                       // which Blender may compress
+  const bool is_blend = base::extension_of(path) == ".blend";               // which Blender may compress
   for (const std::string_view archive : {"PK\x03\x04", "Rar!", "7z\xBC\xAF", "\x1F\x8B"})
     if (bytes.starts_with(archive) && !is_blend && !(may_be_zip && bytes.starts_with("PK")))
       return "found an archive, expected a scene: unpack it and open the scene in it";

@@ -14,7 +14,7 @@ namespace tenebra::formats {
 struct ImportOptions {
   int cone_sides = 64;  ///< AFF `c`: sides of a cone or cylinder (the 2011 paper's count needs 8)
   std::string scene;  ///< glTF: which of the file's scenes, by name or number; empty: the one it shows first
-  Placement placement;          ///< import_obj follows it; for the others import_scene does
+  Placement placement;          ///< import_obj, import_ply, import_stl follow it; else import_scene does
   bool keep_unrounded = false;  ///< fill Mesh::unrounded where positions are rounded
   /// Files that the scene names may lie anywhere in this folder, by `..` too; empty: in the scene's folder.
   std::filesystem::path root = {};
@@ -31,8 +31,8 @@ struct ImportOptions {
 /// Pictures are read from the scene's folder, its folders textures and TextureFiles, and the texture paths;
 /// one that is missing, broken or too large is a warning. Needs at most 256 MiB + 20 times the files' size
 /// (compressed geometry counts as what it decodes to, up to 16 times its size), and four bytes per pixel of
-/// the pictures used (2^26 pixels each, 2^27 together, at most; images/decode.h). Does not add cameras or
-/// lights.
+/// the pictures used (2^26 pixels each, 2^27 together, at most; images/decode.h). By Assimp also what the
+/// converter may use (docs/import.md), and 20 times what it writes. Does not add cameras or lights.
 Expected<Scene> import_scene(const std::filesystem::path& path, const ImportOptions& options = {});
 
 Expected<Scene> import_aff(const std::filesystem::path& path, const ImportOptions& options);

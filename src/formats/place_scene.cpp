@@ -72,8 +72,8 @@ void move_keys_of_roots(const Scene& scene, const glm::dvec3& offset, Clip& clip
   }
 }
 
-/// By what a unit of `unit` metres changes an intensity: that of candela is a unit squared at a unit's
-/// distance.
+/// By what a unit of `unit` metres changes an intensity: candela by its square, as light falls off with the
+/// distance's square.
 double intensity_scale(const Light& light, double unit) {
   const bool point = light.type == LightType::point || light.type == LightType::spot;
   return point && light.falloff == Falloff::inverse_square ? unit * unit : 1;

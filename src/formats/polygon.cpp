@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "formats/import_failure.h"
-#include "formats/text_lines.h"
 
 namespace tenebra::formats {
 namespace {
@@ -26,6 +25,7 @@ Points flatten(std::span<const glm::vec3> corners) {
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   Points points;
+  points.reserve(corners.size());
   for (const glm::vec3& p : corners)
     points.emplace_back(n[axis] < 0 ? glm::dvec2(p[v], p[u]) : glm::dvec2(p[u], p[v]));
   return points;
@@ -105,11 +105,13 @@ std::vector<glm::uvec3> triangulate(std::span<const glm::vec3> corners, std::uin
   const Points points = flatten(corners);
   Remains remains(points);
   std::vector<glm::uvec3> triangles;
+  triangles.reserve(corners.size() - 2);
   std::uint32_t at = 1, first = 0;  // first: the smallest corner that is left
   std::size_t left = corners.size(), failed = 0;
   while (left > 3) {
-    // A whole round without an ear: the polygon crosses itself or has no area; any corner will do.
-    if (failed < left && !remains.is_ear(at, work)) {
+    // A whole round without an ear: the polygon crosses itself or has no area; any corner will do. So it will
+    // where the work is too much.
+    if (failed < left && work <= most_polygon_work && !remains.is_ear(at, work)) {
       at = remains.next(at);
       ++failed;
       continue;
@@ -128,16 +130,20 @@ std::vector<glm::uvec3> triangulate(std::span<const glm::vec3> corners, std::uin
 
 void add_polygon(std::span<const std::uint32_t> corners, std::uint64_t& work, Mesh& mesh) {
   if (corners.size() == 3) return void(mesh.triangles.emplace_back(corners[0], corners[1], corners[2]));
+  const auto check = [&](bool fits) {
+    if (!fits)
+      refuse(
+          "face of '{}': found a polygon of {} corners, expected simpler ones: cut it into triangles at the "
+          "export",
+          shown(mesh.name), corners.size());
+  };
+  check(corners.size() <= most_polygon_corners);
   std::vector<glm::vec3> points;
+  points.reserve(corners.size());
   for (const std::uint32_t corner : corners) points.push_back(mesh.positions[corner]);
-  for (const glm::uvec3& t : triangulate(points, work))
-    mesh.triangles.emplace_back(corners[t.x], corners[t.y], corners[t.z]);
-  constexpr std::uint64_t most_work = 300'000'000;  // corner tests in about half a second
-  if (work > most_work)
-    refuse(
-        "face of '{}': found a polygon of {} corners, expected simpler ones: cut it into triangles at the "
-        "export",
-        shown(mesh.name), corners.size());
+  const std::vector<glm::uvec3> triangles = triangulate(points, work);
+  check(work <= most_polygon_work);
+  for (const glm::uvec3& t : triangles) mesh.triangles.emplace_back(corners[t.x], corners[t.y], corners[t.z]);
 }
 
 }  // namespace tenebra::formats

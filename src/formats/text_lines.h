@@ -1,4 +1,5 @@
-// Lines, words and numbers of an OBJ or MTL text. Bytes, never characters: names may have any encoding.
+// Lines, words and numbers of a text: OBJ, MTL, STL, PLY. Bytes, never characters: names may have any
+// encoding.
 #pragma once
 
 #include <cstddef>

@@ -1,9 +1,12 @@
 // Formats that are converted: every way in which the converter can fail, and what the real one gives.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
+#include <cerrno>
 #include <chrono>
 #include <filesystem>
+#include <iterator>
 
 #include <tenebra/frame_geometry.h>
 #include "formats/converted.h"
@@ -85,6 +88,37 @@ TEST_F(Converted, Nonsense) {
 TEST_F(Converted, ItsSentenceIsQuotedOnOneLine) {
   refuses(script("printf 'odd\\ttoken.\\nmore' >&2; exit 1"), "Assimp found a fault (odd token)");
   refuses(script("yes | head -c 200000 >&2; exit 1"), "Assimp found a fault (y)");  // more than is kept
+}
+
+TEST_F(Converted, ANoteThatIsCutOffIsPassedOver) {
+  std::vector<fs::path> files;
+  formats::ImportOptions options;
+  options.files_read = &files;
+  const Converter converter = script(
+      R"(printf 'glTF\002\000\000\000\060\000\000\000\034\000\000\000JSON{"asset":{"version":"2.0"}} ')"
+      "\nprintf 'Odd.\\nreads /cut' >&2");
+  const auto scene = formats::import_converted(folder_ / "a.fbx", options, converter);
+  ASSERT_TRUE(scene) << scene.error().message;
+  ASSERT_FALSE(scene->warnings.empty());
+  EXPECT_EQ(scene->warnings.back(), "Odd.");
+  EXPECT_EQ(files, std::vector<fs::path>{folder_ / "a.fbx"});
+}
+
+TEST_F(Converted, NoDescriptorAndNoProcessIsLeft) {
+  const auto descriptors = [] {
+    return std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator());
+  };
+  const auto before = descriptors();
+  refuses(script("exit 1"), "Assimp found a fault");
+  Converter slow = script("exec sleep 60");
+  slow.least_time = std::chrono::milliseconds(50);
+  refuses(slow, "took more than");
+  fault({folder_ / "nowhere"});
+  EXPECT_EQ(descriptors(), before);
+  const pid_t left = waitpid(-1, nullptr, WNOHANG);
+  const int why = errno;
+  EXPECT_EQ(left, -1);
+  EXPECT_EQ(why, ECHILD);
 }
 
 TEST_F(Converted, MissingFile) {
@@ -194,11 +228,8 @@ TEST_F(ByAssimp, BrokenFilesAreRefused) {
        {"a.fbx", "a.dae", "a.3ds", "a.lwo", "a.x", "a.dxf", "a.ac", "a.md3", "a.3mf"}) {
     write_text(folder_ / name, "; nothing of the kind");
     const auto scene = formats::import_scene(folder_ / name);
-    if (scene) {  // a format whose lines may be anything
-      EXPECT_EQ(triangles(*scene), 0u) << name;
-    } else {
-      EXPECT_TRUE(scene.error().message.ends_with("File > Export > glTF 2.0).")) << scene.error().message;
-    }
+    ASSERT_FALSE(scene) << name;
+    EXPECT_TRUE(scene.error().message.ends_with("File > Export > glTF 2.0).")) << scene.error().message;
   }
 }
 
@@ -206,13 +237,29 @@ TEST_F(ByAssimp, FilesOutsideTheFolderAreNotRead) {
   fs::create_directories(folder_ / "in");
   write_text(folder_ / "out.off", off_triangle);
   write_text(folder_ / "in/in.off", off_triangle);
-  const std::string inside = "LWSC\n3\n\nLoadObjectLayer 1 in.off\n",
-                    outside = "LWSC\n3\n\nLoadObjectLayer 1 ../out.off\n";
-  EXPECT_EQ(triangles(read("in/a.lws", inside)), 1u);
-  EXPECT_EQ(triangles(read("in/a.lws", outside)), 0u);
+  fs::create_symlink(folder_ / "out.off", folder_ / "in/link.off");
+  const auto naming = [](const std::string& name) { return "LWSC\n3\n\nLoadObjectLayer 1 " + name + "\n"; };
+  EXPECT_EQ(triangles(read("in/a.lws", naming("in.off"))), 1u);
+  for (const std::string& name :
+       {std::string("../out.off"), (folder_ / "out.off").string(), std::string("link.off")})
+    EXPECT_EQ(triangles(read("in/a.lws", naming(name))), 0u) << name;
   formats::ImportOptions options;
   options.root = folder_.path();
-  EXPECT_EQ(triangles(read("in/a.lws", outside, options)), 1u);
+  EXPECT_EQ(triangles(read("in/a.lws", naming("../out.off"), options)), 1u);
+}
+
+TEST_F(ByAssimp, TheSceneItselfMayBeALink) {
+  fs::create_directories(folder_ / "in");
+  write_text(folder_ / "stored", "LWSC\n3\n\nLoadObjectLayer 1 in.off\n");
+  write_text(folder_ / "in/in.off", off_triangle);
+  fs::create_symlink(folder_ / "stored", folder_ / "in/a.lws");
+  std::vector<fs::path> files;
+  formats::ImportOptions options;
+  options.files_read = &files;
+  const auto scene = formats::import_scene(folder_ / "in/a.lws", options);
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(triangles(*scene), 1u);
+  EXPECT_EQ(files, (std::vector<fs::path>{folder_ / "in/a.lws", folder_ / "in/in.off"}));
 }
 
 TEST(FormatList, EveryExtensionIsListedOnceInLowerCase) {
@@ -229,6 +276,14 @@ TEST(FormatList, EveryExtensionIsListedOnceInLowerCase) {
       seen += one + " ";
     }
   }
+}
+
+TEST(FormatList, ACompressedBlendFileIsNoArchive) {
+  const testing::TemporaryFolder folder;
+  write_text(folder / "a.BLEND", "\x1F\x8B");
+  const auto scene = formats::import_scene(folder / "a.BLEND");
+  ASSERT_FALSE(scene);
+  EXPECT_NE(scene.error().message.find("open it in Blender"), std::string::npos) << scene.error().message;
 }
 
 TEST(FormatList, OtherProgramsFilesHaveAWay) {

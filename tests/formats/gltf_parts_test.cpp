@@ -106,7 +106,8 @@ TEST(GltfInstances, OfHugeNumbersAreRefused) {
   }
   const auto scene = file.import();
   ASSERT_FALSE(scene.has_value());
-  EXPECT_NE(scene.error().message.find("found 3000000000 instances in all"), std::string::npos) << scene.error().message;
+  EXPECT_NE(scene.error().message.find("found 3000000000 instances in all"), std::string::npos)
+      << scene.error().message;
   Instanced unequal;
   unequal.root["accessors"][2]["count"] = 2;
   EXPECT_FALSE(unequal.import().has_value());

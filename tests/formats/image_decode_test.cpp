@@ -189,6 +189,7 @@ TEST(ImageDecode, Ktx2IsCheckedBeforeItIsDecoded) {
     for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<char>(number >> 8 * i);
     return bytes;
   };
+  expect_refused(with(12, 37), "Vulkan's format 37");
   expect_refused(with(20, 1u << 31), "at most");
   expect_refused(with(24, 0), "at least one");
   expect_refused(with(28, 1), "of depth 1");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <chrono>
 #include <cstring>
 
 #include "formats/import_scene.h"
@@ -94,17 +95,47 @@ TEST_F(Ply, BytesOfColoursAreEncodedAndAlphaThatIsZeroEverywhereIsNone) {
 
 TEST_F(Ply, CornersWithCoordinatesOfTheirOwnGetVertices) {
   write_text(folder_ / "a.ppm", "P3 1 1 255 9 9 9\n");
-  const Scene scene = read("ply\nformat ascii 1.0\ncomment TextureFile a.ppm\n" +
-                           ply_text("element face 2\nproperty list uchar int vertex_indices\n"
-                                    "property list uchar float texcoord\n",
-                                    "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 6 0 0 1 0 1 1\n"
-                                    "3 0 2 3 6 0.5 0 1 1 0 1\n")
-                               .substr(21));
-  const Mesh& mesh = scene.meshes.at(0);
-  EXPECT_EQ(mesh.positions.size(), 5u) << "vertex 0 has two";
-  EXPECT_EQ(mesh.triangles.at(1), glm::uvec3(4, 2, 3));
-  EXPECT_EQ(mesh.texture_coordinates[0].at(4), glm::vec2(0.5, 1)) << "v points up in the file";
-  EXPECT_EQ(scene.materials.at(0).base_color_map.image, 0);
+  const std::string lists = "property list uchar int vertex_indices\nproperty list uchar float texcoord\n",
+                    one = "element face 1\n" + lists,
+                    values = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 6 0 0 1 0 1 1\n3 0 2 3 6 0.5 0 1 1 0 1\n";
+  const auto textured = [](const std::string& elements, const std::string& rows) {
+    return "ply\nformat ascii 1.0\ncomment TextureFile a.ppm\n" + ply_text(elements, rows).substr(21);
+  };
+  for (const std::string& elements : {"element face 2\n" + lists, one + one}) {
+    const Scene scene = read(textured(elements, values));
+    const Mesh& mesh = scene.meshes.at(0);
+    EXPECT_EQ(mesh.positions.size(), 5u) << "vertex 0 has two";
+    EXPECT_EQ(mesh.triangles.at(1), glm::uvec3(4, 2, 3));
+    EXPECT_EQ(mesh.texture_coordinates[0].at(1), glm::vec2(1, 1));
+    EXPECT_EQ(mesh.texture_coordinates[0].at(4), glm::vec2(0.5, 1)) << "v points up in the file";
+    EXPECT_EQ(scene.materials.at(0).base_color_map.image, 0);
+  }
+  const std::string added = refusal(textured(one + one + one, values + "3 0 1 4 0\n"));
+  EXPECT_NE(added.find("from 0 to 3"), std::string::npos) << added;
+}
+
+TEST_F(Ply, PolygonsThatWouldTakeMinutesAreRefusedFast) {
+  constexpr int count = 200'000;
+  std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) +
+                     "\nproperty float x\nproperty float y\nproperty float z\n"
+                     "element face 1\nproperty list int int vertex_indices\nend_header\n";
+  std::string face = std::to_string(count);
+  for (int i = 0; i < count; ++i) {
+    text += std::to_string(i) + " 0 0\n";  // in a line: no corner is an ear
+    face += " " + std::to_string(i);
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const std::string message = refusal(text + face + "\n");
+  EXPECT_NE(message.find("found a polygon of 200000 corners"), std::string::npos) << message;
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+}
+
+TEST_F(Ply, APolygonOfMoreThanAMillionCornersIsRefused) {
+  std::string face = "1048577";
+  for (int i = 0; i < 1'048'577; ++i) face += " 0";
+  const std::string message = refusal(ply_text("element face 1\nproperty list int int vertex_indices\n",
+                                               "0 0 0\n1 0 0\n1 1 0\n0 1 0\n" + face + "\n"));
+  EXPECT_NE(message.find("found a polygon of 1048577 corners"), std::string::npos) << message;
 }
 
 TEST_F(Ply, StripsTurnEverySecondTriangle) {
@@ -123,9 +154,12 @@ TEST_F(Ply, WhatIsNoMeshIsASentence) {
   says("ply\nformat ascii 1.0\n", "found no end_header");
   says("ply\nformat text 1.0\nend_header\n", "line 2: found format 'text'");
   says("ply\nformat ascii 1.0\nelement vertex many\n", "found 'many' as a count of 'vertex'");
+  says("ply\nformat ascii 1.0\nelement vertex 18446744073709551617\n", "as a count of 'vertex'");
   says("ply\nformat ascii 1.0\nelement vertex 1\nproperty half x\n", "line 4: found type 'half'");
   says(ply_text("", square), "found 4 points and no faces");
-  says(ply_text(ply_faces, square + "4 0 1 2 4\n"), "face 0: found vertex 4, expected 0 to 3");
+  says(ply_text(ply_faces, square + "4 0 1 2 4\n"),
+       "face 0: found vertex 4, expected a whole number from 0 to 3");
+  says(ply_text(ply_faces, square + "4 0 1 1.5 3\n"), "face 0: found vertex 1.5, expected a whole number");
   says(ply_text(ply_faces, square + "4 0 1 x 3\n"), "line 14: found 'x', expected a number");
   says(ply_text(ply_faces, square + "3 0 1  "), "end of the file, expected more: copy it again");
   says(ply_text("element face 99999999\nproperty list uchar int vertex_indices\n", square + "3 0 1 2\n"),

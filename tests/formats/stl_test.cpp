@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <chrono>
 #include <cstdint>
 
 #include "formats/import_scene.h"
@@ -80,6 +81,24 @@ TEST_F(Stl, AFacetOfMoreCornersIsCut) {
   const Scene scene =
       read("solid\n" + facet("vertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\n") + "endsolid\n");
   EXPECT_EQ(scene.meshes.at(0).triangles.size(), 2u);
+}
+
+TEST_F(Stl, VerticesInALineAlongZAreFoundFast) {
+  std::string text = "solid\n";
+  constexpr int count = 3 << 14;
+  for (int z = 0; z < count; z += 3) {
+    std::string corners;
+    for (int k = 0; k < 3; ++k) corners += "vertex 0 0 " + std::to_string(z + k) + "\n";
+    text += facet(corners);
+  }
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(read(text + "endsolid\n").meshes.at(0).positions.size(), std::size_t{count});
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2)) << "their slots collide";
+}
+
+TEST_F(Stl, TextMayBeginWithAByteOrderMark) {
+  const Scene scene = read("\xEF\xBB\xBFsolid a\n" + stl_triangle + "endsolid\n");
+  EXPECT_EQ(scene.nodes.at(0).name, "a");
 }
 
 TEST_F(Stl, BinaryIsToldByItsSizeThoughItBeginsWithSolid) {

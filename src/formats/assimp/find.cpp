@@ -1,6 +1,8 @@
 #include <dlfcn.h>
 #include <unistd.h>
 
+#include <initializer_list>
+
 #include "formats/converted.h"
 
 namespace tenebra::formats {
@@ -14,19 +16,28 @@ fs::path file_of_this_code() {
   return dladdr(reinterpret_cast<void*>(&find_converter), &info) != 0 ? info.dli_fname : "";
 }
 
+/// The converter in one of `places` around `file`, or empty.
+fs::path find_at(const fs::path& file, std::initializer_list<const char*> places) {
+  std::error_code error;
+  if (!file.is_absolute()) return {};
+  for (const char* const place : places) {
+    const fs::path program = (file.parent_path() / place / "tenebra-assimp").lexically_normal();
+    if (fs::is_regular_file(program, error) && access(program.c_str(), X_OK) == 0) return program;
+  }
+  return {};
+}
+
 }  // namespace
 
 Converter find_converter() {
   std::error_code error;
-  for (const fs::path& file : {fs::read_symlink("/proc/self/exe", error), file_of_this_code()}) {
-    if (!file.is_absolute()) continue;
-    // Beside it; of bin/tenebra; of lib/python3/dist-packages/tenebra; of a build folder's python/tenebra.
-    for (const char* const place : {".", "../lib/tenebra", "../../../tenebra", "../../bin"}) {
-      const fs::path program = (file.parent_path() / place / "tenebra-assimp").lexically_normal();
-      if (fs::is_regular_file(program, error) && access(program.c_str(), X_OK) == 0) return {program};
-    }
-  }
-  return {};
+  const fs::path running = fs::read_symlink("/proc/self/exe", error), code = file_of_this_code();
+  fs::path found = find_at(running, {".", "../lib/tenebra"});  // beside it; of bin/tenebra
+  // Of lib/python3/dist-packages/tenebra; of a build folder's python/tenebra. Not of a program: two folders
+  // above it anybody may write, as where it lies in /tmp/build/bin.
+  if (found.empty() && !fs::equivalent(running, code, error))
+    found = find_at(code, {".", "../lib/tenebra", "../../../tenebra", "../../bin"});
+  return {found};
 }
 
 }  // namespace tenebra::formats

@@ -55,10 +55,11 @@ void check_end(const ChildResult& result, const ChildLimits& limits, std::string
     refuse("the converter (Assimp) wrote something else than glTF, expected a scene: {}", way);
 }
 
-/// What the converter wrote beside the scene: the files that it read, and sentences on what it left out.
+/// What the converter wrote beside the scene: sentences on what it left out, and the files that it read. What
+/// was cut off ends without a line feed and is passed over.
 void take_notes(std::string_view errors, const fs::path& file, const ImportOptions& options, Scene& scene) {
   constexpr std::string_view reads = "reads ";
-  while (!errors.empty()) {
+  while (errors.find('\n') != std::string_view::npos) {
     const std::string_view line = take_line(errors);
     if (!line.starts_with(reads))
       scene.warnings.emplace_back(line);
@@ -75,7 +76,8 @@ Expected<Scene> convert(const fs::path& path, const ImportOptions& options, cons
         "found no converter for '{}' (tenebra-assimp), expected it with the program: install libassimp-dev "
         "and build Tenebra again, or {}",
         path.extension().string(), way);
-  const fs::path file = fs::canonical(path);
+  // Links of folders are followed, one of the file is not: what it names lies beside the link.
+  const fs::path file = fs::canonical(fs::absolute(path).parent_path()) / path.filename();
   const fs::path folder = options.root.empty() ? file.parent_path() : fs::canonical(options.root);
   const ChildLimits limits{std::min<std::uintmax_t>(converter.least_output + 32 * size, max_scene_file_bytes),
                            converter.least_time + std::chrono::milliseconds(size >> 9)};

@@ -69,6 +69,8 @@ void check_descriptor(std::string_view bytes, std::uint32_t at, std::uint32_t si
 Ktx2Header read_header(std::string_view bytes, std::uint64_t& pixels_left) {
   part(bytes, 0, header_bytes, "header");
   const auto field = [&](std::size_t at) { return number_at<std::uint32_t>(bytes, at); };
+  if (const std::uint32_t format = field(12); format != 0)
+    refuse("found a KTX2 picture of Vulkan's format {}, expected Basis Universal", format);
   const Ktx2Header header{field(20), field(24), std::max(field(40), 1u), field(44)};
   const std::uint32_t depth = field(28), layers = field(32), faces = field(36);
   if (depth > 0 || layers > 0 || faces != 1)
@@ -160,7 +162,7 @@ TextureImage decode_ktx2(std::string_view bytes, std::uint64_t& pixels_left) {
               "read");
   const KtxTexture texture(opened);
   if (!ktxTexture2_NeedsTranscoding(opened))
-    refuse("found a KTX2 picture of Vulkan's format {}, expected Basis Universal", opened->vkFormat);
+    refuse("found a KTX2 picture in another encoding, expected Basis Universal");
   expect_done(ktxTexture2_TranscodeBasis(opened, KTX_TTF_RGBA32, 0), "decoded");
   TextureImage image;
   image.width = static_cast<int>(opened->baseWidth);

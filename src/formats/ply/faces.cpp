@@ -3,30 +3,27 @@
 #include "formats/import_failure.h"
 #include "formats/ply/parts.h"
 #include "formats/polygon.h"
-#include "formats/text_lines.h"
 
 namespace tenebra::formats::ply {
 namespace {
 
-constexpr std::uint32_t no_vertex = ~0u;
-
 class FaceReader {
 public:
   FaceReader(bool textured, std::size_t materials, Values& values, Mesh& mesh,
-             std::vector<UnusedContent>& unused)
+             std::vector<UnusedContent>& unused, FaceLists& lists)
       : textured_(textured),
         materials_(materials),
-        vertices_(mesh.positions.size()),
         values_(values),
         mesh_(mesh),
-        unused_(unused) {}
+        unused_(unused),
+        lists_(lists) {}
 
   void read(const Element& element) {
     if (mesh_.positions.empty())
       refuse("element '{}': found it before any vertices, expected these first", shown(element.name));
     const FaceProperties of = face_properties(element);
     const bool strips = element.name == "tristrips";
-    if (!strips) mesh_.triangles.reserve(element.count);
+    if (!strips) mesh_.triangles.reserve(mesh_.triangles.size() + element.count);
     for (face_ = 0; face_ < element.count; ++face_) {
       corners_.clear();
       wedges_.clear();
@@ -49,9 +46,6 @@ public:
       mesh_.materials.resize(mesh_.triangles.size(), known ? static_cast<std::uint32_t>(picture) : 0);
     }
   }
-
-  /// Faces of fewer than three corners.
-  std::uint64_t left_out() const { return left_out_; }
 
 private:
   /// Which property is what; -1: none.
@@ -82,9 +76,10 @@ private:
     for (std::size_t left = values_.take_count(property); left > 0; --left) {
       const double vertex = values_.take(property.type);
       const bool end = strips && vertex < 0;
-      if (!end && !(vertex >= 0 && vertex < static_cast<double>(vertices_)))
-        refuse("face {}: found vertex {}, expected 0 to {}: the file may be cut off", face_, vertex,
-               vertices_ - 1);
+      const bool known = vertex >= 0 && vertex < static_cast<double>(lists_.vertices);
+      if (!end && (!known || vertex != std::floor(vertex)))
+        refuse("face {}: found vertex {}, expected a whole number from 0 to {}: the file may be cut off",
+               face_, vertex, lists_.vertices - 1);
       corners_.push_back(end ? no_vertex : static_cast<std::uint32_t>(vertex));
     }
   }
@@ -97,17 +92,16 @@ private:
   /// Gives corners that have other coordinates than their vertex a vertex of their own.
   void split_corners() {
     auto& coordinates = mesh_.texture_coordinates[0];
-    if (next_.empty()) {
-      coordinates.assign(mesh_.positions.size(), glm::vec2(NAN));
-      next_.assign(mesh_.positions.size(), no_vertex);
-    }
+    auto& next = lists_.next;
+    if (coordinates.empty()) coordinates.assign(mesh_.positions.size(), glm::vec2(NAN));
+    if (next.empty()) next.assign(mesh_.positions.size(), no_vertex);
     constexpr int most_steps = 64;  // a vertex that is there twice does no harm
     for (std::size_t i = 0; i < corners_.size(); ++i) {
       if (corners_[i] == no_vertex) continue;
       const glm::vec2 wanted = coordinates_of(wedges_[2 * i], wedges_[2 * i + 1]);
       std::uint32_t at = corners_[i];
       const auto fits = [&] { return coordinates[at] == wanted || std::isnan(coordinates[at].x); };
-      for (int steps = 0; !fits() && next_[at] != no_vertex && steps < most_steps; ++steps) at = next_[at];
+      for (int steps = 0; !fits() && next[at] != no_vertex && steps < most_steps; ++steps) at = next[at];
       if (!fits()) at = copy_behind(at);
       coordinates[at] = wanted;
       corners_[i] = at;
@@ -124,16 +118,16 @@ private:
     repeat(mesh_.normals);
     repeat(mesh_.colors);
     repeat(mesh_.texture_coordinates[0]);
-    next_.push_back(next_[vertex]);
-    next_[vertex] = copy;
+    lists_.next.push_back(lists_.next[vertex]);
+    lists_.next[vertex] = copy;
     return copy;
   }
 
   void add_face() {
     if (corners_.size() >= 3)
-      add_polygon(corners_, work_, mesh_);
+      add_polygon(corners_, lists_.work, mesh_);
     else
-      ++left_out_;
+      ++lists_.left_out;
   }
 
   void add_strips() {
@@ -148,23 +142,21 @@ private:
   }
 
   const bool textured_;
-  const std::size_t materials_, vertices_;  ///< vertices: of the file
+  const std::size_t materials_;
   Values& values_;
   Mesh& mesh_;
   std::vector<UnusedContent>& unused_;
+  FaceLists& lists_;
   std::vector<std::uint32_t> corners_;  ///< of the face
   std::vector<double> wedges_;          ///< of the face, two for each corner
-  std::vector<std::uint32_t> next_;     ///< of each vertex another at its place, or no_vertex
-  std::uint64_t face_ = 0, left_out_ = 0, work_ = 0;
+  std::uint64_t face_ = 0;              ///< of the element
 };
 
 }  // namespace
 
-std::uint64_t read_faces(const Element& element, bool textured, std::size_t materials, Values& values,
-                         Mesh& mesh, std::vector<UnusedContent>& unused) {
-  FaceReader reader(textured, materials, values, mesh, unused);
-  reader.read(element);
-  return reader.left_out();
+void read_faces(const Element& element, bool textured, std::size_t materials, Values& values, Mesh& mesh,
+                std::vector<UnusedContent>& unused, FaceLists& lists) {
+  FaceReader(textured, materials, values, mesh, unused, lists).read(element);
 }
 
 }  // namespace tenebra::formats::ply

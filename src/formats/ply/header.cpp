@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <system_error>
 
 #include "formats/import_failure.h"
 #include "formats/text_lines.h"
@@ -88,9 +89,10 @@ private:
     element.name = take_word(rest_);
     const std::string_view count = take_word(rest_);
     const char* const end = count.data() + count.size();
-    if (std::from_chars(count.data(), end, element.count).ptr != end || count.empty())
-      refuse("line {}: found '{}' as a count of '{}', expected a whole number", line_, shown(count),
-             shown(element.name));
+    const auto [stop, error] = std::from_chars(count.data(), end, element.count);
+    if (error != std::errc() || stop != end)
+      refuse("line {}: found '{}' as a count of '{}', expected a whole number of 64 bits", line_,
+             shown(count), shown(element.name));
     header_.elements.push_back(std::move(element));
   }
 

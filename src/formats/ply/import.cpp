@@ -7,7 +7,6 @@
 #include "formats/import_guard.h"
 #include "formats/ply/parts.h"
 #include "formats/scene_file.h"
-#include "formats/text_lines.h"
 
 namespace tenebra::formats {
 namespace {
@@ -50,8 +49,7 @@ private:
     if (element.name == "vertex") return read_vertices(element);
     if (faces && element.count > 0) {
       has_faces_ = true;
-      left_out_ +=
-          ply::read_faces(element, textured_, scene_.materials.size(), values_, mesh_, scene_.unused);
+      ply::read_faces(element, textured_, scene_.materials.size(), values_, mesh_, scene_.unused, faces_);
       return;
     }
     if (!faces && element.count > 0) scene_.unused.push_back({shown(element.name), element.count});
@@ -61,6 +59,7 @@ private:
   void read_vertices(const Element& element) {
     const std::vector<glm::dvec3> points =
         ply::read_vertices(element, textured_, values_, mesh_, scene_.unused);
+    faces_.vertices = points.size();
     scene_.frame = choose_frame(options_.placement, {}, points);
     warn_of_odd_positions(points, scene_);
     add_positions(points, scene_.frame, options_.keep_unrounded, mesh_);
@@ -77,8 +76,9 @@ private:
       for (Material& material : scene_.materials) material.base_color = glm::vec3(1);
     for (glm::vec2& place : mesh_.texture_coordinates[0])
       if (std::isnan(place.x)) place = glm::vec2(0);
-    if (left_out_ > 0)
-      scene_.warnings.push_back(fmt::format("Left out {} faces of fewer than three corners.", left_out_));
+    if (faces_.left_out > 0)
+      scene_.warnings.push_back(
+          fmt::format("Left out {} faces of fewer than three corners.", faces_.left_out));
     const auto solid = [](const glm::vec4& color) { return !(color.a > 0 && color.a < 1); };
     // Of alpha that is 0 everywhere the program that wrote it knew nothing.
     if (mesh_.colors.empty()) return;
@@ -93,7 +93,7 @@ private:
   const ImportOptions& options_;
   Scene& scene_;
   Mesh mesh_;
-  std::uint64_t left_out_ = 0;
+  ply::FaceLists faces_;
   bool has_faces_ = false;
   bool textured_ = false;  ///< a picture was found
 };

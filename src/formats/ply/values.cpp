@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -30,8 +31,7 @@ void Values::check_count(const Element& element) const {
   if (const std::size_t most = (rest_.size() + 1) / least; element.count > most)
     refuse(
         "element '{}': found a count of {}, expected at most the {} that the file's bytes can hold: the file "
-        "is "
-        "cut off, copy it again",
+        "is cut off, copy it again",
         shown(element.name), element.count, most);
 }
 

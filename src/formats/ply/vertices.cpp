@@ -4,7 +4,6 @@
 
 #include "formats/import_failure.h"
 #include "formats/ply/parts.h"
-#include "formats/text_lines.h"
 #include "math/srgb.h"
 
 namespace tenebra::formats::ply {
@@ -65,7 +64,6 @@ float linear(double encoded) {
 
 }  // namespace
 
-/// PLY's v points up, ours down.
 glm::vec2 coordinates_of(double s, double t) {
   return std::isfinite(s) && std::isfinite(t) ? glm::vec2(s, 1 - t) : glm::vec2(0);
 }

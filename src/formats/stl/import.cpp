@@ -4,7 +4,6 @@
 #include "formats/import_scene.h"
 #include "formats/scene_file.h"
 #include "formats/stl/stl_file.h"
-#include "formats/text_lines.h"
 
 namespace tenebra::formats {
 namespace {

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <random>
 
+#include "base/lower_case.h"
 #include "formats/import_failure.h"
 #include "formats/polygon.h"
 #include "formats/stl/stl_file.h"
@@ -21,14 +23,8 @@ std::uint32_t word_at(std::string_view bytes, std::size_t at) {
   return value;
 }
 
-std::string lower_word(std::string_view word) {
-  std::string text(word.substr(0, 16));
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
-/// Vertices of one solid by their place, to the bit: a table of numbers of positions, at most half full.
+/// Vertices of one solid by their place, to the bit: a table of numbers of positions, at most half full. The
+/// numbers follow the file's order, wherever in the table they stand.
 class PlaceIndex {
 public:
   void clear() { slots_.clear(), used_ = 0; }
@@ -50,16 +46,23 @@ private:
     return std::bit_cast<Bits>(std::array{place.x, place.y, place.z});
   }
 
+  /// An odd number, another one each time the program runs: no file can be made whose places collide.
+  static std::uint64_t factor() {
+    static const std::uint64_t drawn = [] {
+      std::random_device device;
+      return std::uint64_t{device()} << 32 | device() | 1;
+    }();
+    return drawn;
+  }
+
   std::uint32_t& slot_of(const glm::dvec3& place, const std::vector<glm::dvec3>& positions) {
     const Bits bits = bits_of(place);
     std::uint64_t hash = 0;
-    for (const std::uint64_t part : bits) hash = (std::rotl(hash, 23) ^ part) * 0x9E3779B97F4A7C15u;
-    std::size_t at = hash >> 20;  // the upper bits are the mixed ones
-    while (true) {
-      at &= slots_.size() - 1;
-      if (slots_[at] == none || bits_of(positions[slots_[at]]) == bits) return slots_[at];
-      ++at;
-    }
+    for (const std::uint64_t part : bits) hash = (std::rotl(hash, 23) ^ part) * factor();
+    // A product carries bits upward only: its top bits alone depend on all bits of the factors.
+    std::size_t at = hash >> (64 - std::countr_zero(slots_.size()));
+    while (slots_[at] != none && bits_of(positions[slots_[at]]) != bits) at = (at + 1) & (slots_.size() - 1);
+    return slots_[at];
   }
 
   void grow(const std::vector<glm::dvec3>& positions) {
@@ -70,7 +73,7 @@ private:
       if (number != none) slot_of(positions[number], positions) = number;
   }
 
-  std::vector<std::uint32_t> slots_;  ///< a power of two
+  std::vector<std::uint32_t> slots_;  ///< a power of two, 64 or more
   std::size_t used_ = 0;
 };
 
@@ -95,7 +98,7 @@ public:
   }
 
   StlFile parse_text(std::string_view text) {
-    for (TextLines lines(text); lines.next(at_);) read_statement(lower_word(at_.word));
+    for (TextLines lines(text); lines.next(at_);) read_statement(base::lower_case(at_.word));
     if (open_)
       refuse(
           "line {}: found the end of the file within a facet, expected endfacet: the file is cut off, copy "
@@ -179,12 +182,16 @@ private:
   }
 
   void cut_facet() {
+    const auto check = [&](bool fits) {
+      if (!fits) refuse("line {}: found a facet of {} vertices, expected 3", at_.line, corners_.size());
+    };
+    check(corners_.size() <= most_polygon_corners);
     std::vector<glm::vec3> near;
+    near.reserve(corners_.size());
     for (const glm::dvec3& corner : corners_) near.emplace_back(corner - corners_[0]);
-    for (const glm::uvec3& t : triangulate(near, work_)) add_triangle(t);
-    constexpr std::uint64_t most_work = 300'000'000;  // corner tests in about half a second
-    if (work_ > most_work)
-      refuse("line {}: found a facet of {} vertices, expected 3", at_.line, corners_.size());
+    const std::vector<glm::uvec3> triangles = triangulate(near, work_);
+    check(work_ <= most_polygon_work);
+    for (const glm::uvec3& t : triangles) add_triangle(t);
   }
 
   void add_triangle(const glm::uvec3& corners) {
@@ -204,7 +211,10 @@ private:
 
 /// Whether `bytes` are text: binary files may begin with "solid" too, and say their size.
 bool is_text(std::string_view bytes) {
-  const bool begins = lower_word(trim(bytes.substr(0, 256)).substr(0, 5)) == "solid";
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  std::string_view front = bytes.substr(0, 256);
+  if (front.starts_with(byte_order_mark)) front.remove_prefix(byte_order_mark.size());
+  const bool begins = base::lower_case(trim(front).substr(0, 5)) == "solid";
   if (bytes.size() < header_size) return begins;
   if (bytes.size() == header_size + std::size_t{word_at(bytes, header_size - 4)} * triangle_size)
     return false;

@@ -32,8 +32,8 @@ std::vector<std::string> asked(const std::string& scene, std::vector<std::string
 TEST(SunCommand, FacesAsColoursAndTables) {
   const TemporaryFolder folder;
   const auto result =
-      tenebra(asked(write_map(folder), {"-o", folder / "hours.glb", "--csv", folder / "new/hours.csv", "--json",
-                                        folder / "hours.json", "--full", "16"}));
+      tenebra(asked(write_map(folder), {"-o", folder / "hours.glb", "--csv", folder / "new/hours.csv",
+                                        "--json", folder / "hours.json", "--full", "16"}));
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_TRUE(result.output.starts_with("4 faces, 64 points, 16 suns, hours ")) << result.output;
   EXPECT_NE(result.output.find("colours: viridis, 0 to 16 hours"), std::string::npos) << result.output;
