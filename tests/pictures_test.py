@@ -189,7 +189,7 @@ class ExrTest(unittest.TestCase):
                                  (["-o", "a.exr", "--aov", "ao"], "--aov ao needs ambient occlusion"),
                                  (["-o", "a.exr", "--aov", "visibility", "--shadows", "none"], "needs shadows"),
                                  (["-o", "a.exr", "--frames", "0:1"], "no frame number"),
-                                 (["-o", "a.jpg"], ".png or .exr"),
+                                 (["-o", "a.tiff"], ".png, .jpg or .exr"),
                                  (["-o", "##_##.png"], "expected one frame number"),
                                  (["-o", "-", "--resume"], "--resume looks for what was written"),
                                  (["-o", "a.png", "--format", "png"], "expected -o -"),
