@@ -2,9 +2,9 @@
 #pragma once
 
 #include <algorithm>
-#include <charconv>
-#include <optional>
 #include <string_view>
+
+#include "base/number_in.h"
 
 namespace tenebra::io {
 
@@ -16,12 +16,6 @@ inline std::string_view take_header_word(std::string_view& text, std::string_vie
   return word;
 }
 
-/// The number that the whole word is; none for anything else, and beyond the range of `T`.
-template <class T>
-std::optional<T> number_in(std::string_view word) {
-  T value{};
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size() ? std::optional(value) : std::nullopt;
-}
+using base::number_in;
 
 }  // namespace tenebra::io

@@ -1,7 +1,6 @@
 #include "session/staged_scene.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
@@ -34,11 +33,8 @@ Expected<int> choose(const std::vector<Named>& list, const std::optional<std::st
     if (list[i].name == *wanted) return static_cast<int>(i);
     names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", i, list[i].name);
   }
-  int index = -1;
-  const char* end = wanted->data() + wanted->size();
-  const auto [stopped, error] = std::from_chars(wanted->data(), end, index);
-  const bool is_index = error == std::errc{} && stopped == end;
-  if (is_index && index >= 0 && index < static_cast<int>(list.size())) return index;
+  const int index = settings::number_from<int>(*wanted).value_or(-1);
+  if (index >= 0 && index < static_cast<int>(list.size())) return index;
   return base::fail("the scene has no {} called or numbered {}, it has {}", kind, *wanted,
                     names.empty() ? "none" : names);
 }

@@ -22,8 +22,7 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 }
 
 std::optional<double> finite_from(std::string_view text) {
-  const auto number = number_from<double>(text);
-  return number && std::isfinite(*number) ? number : std::nullopt;
+  return base::finite_in(text);
 }
 
 Expected<glm::dvec3> parse_place(const std::string& text) {

@@ -1,7 +1,6 @@
 // Values from the text that a user types: numbers, vectors and sizes, or a sentence of what was expected.
 #pragma once
 
-#include <charconv>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -10,6 +9,7 @@
 
 #include <tenebra/expected.h>
 #include "base/lower_case.h"
+#include "base/number_in.h"
 
 namespace tenebra::settings {
 
@@ -19,14 +19,10 @@ bool is_word(std::string_view text, std::string_view word);
 /// What stands between the separators; at least one part.
 std::vector<std::string_view> split(std::string_view text, char separator);
 
-/// The whole of `text` as a number; std::from_chars uses no locale and takes no leading space.
+/// The whole of `text` as a number.
 template <class Number>
 std::optional<Number> number_from(std::string_view text) {
-  Number number{};
-  const char* end = text.data() + text.size();
-  const auto [stopped, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc{} || stopped != end) return std::nullopt;
-  return number;
+  return base::number_in<Number>(text);
 }
 std::optional<double> finite_from(std::string_view text);
 

@@ -1,13 +1,12 @@
 #include "sun/columns.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <optional>
 #include <string>
 
 #include "base/fail.h"
 #include "base/lower_case.h"
+#include "base/number_in.h"
 #include "io/input_file.h"
 
 namespace tenebra::sun {
@@ -37,11 +36,8 @@ void split_cells(std::string_view line, std::vector<std::string_view>& cells) {
 }
 
 std::optional<double> finite_number(std::string_view text) {
-  double value = 0;
   if (text.starts_with('+')) text.remove_prefix(1);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole = error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
-  return whole ? std::optional(value) : std::nullopt;
+  return base::finite_in(text);
 }
 
 /// Hands out the lines that hold something, and counts all.

@@ -1,12 +1,12 @@
 #include "sun/times.h"
 
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
 #include <string_view>
 
 #include "base/fail.h"
+#include "base/number_in.h"
 
 namespace tenebra::sun {
 namespace {
@@ -15,10 +15,8 @@ using std::chrono::year_month_day;
 
 /// `digits` digits alone.
 std::optional<int> digits_from(std::string_view text, std::size_t digits) {
-  int value = 0;
-  if (text.size() != digits || text.find_first_not_of("0123456789") != text.npos) return std::nullopt;
-  std::from_chars(text.data(), text.data() + text.size(), value);
-  return value;
+  if (text.size() != digits || text.starts_with('-')) return std::nullopt;
+  return base::number_in<int>(text);
 }
 
 year_month_day local_day(double utc_s, int zone_min) {

@@ -1,9 +1,8 @@
 #include "formats/ply/header.h"
 
 #include <algorithm>
-#include <charconv>
-#include <system_error>
 
+#include "base/number_in.h"
 #include "formats/import_failure.h"
 #include "formats/text_lines.h"
 
@@ -88,11 +87,11 @@ private:
     Element element;
     element.name = take_word(rest_);
     const std::string_view count = take_word(rest_);
-    const char* const end = count.data() + count.size();
-    const auto [stop, error] = std::from_chars(count.data(), end, element.count);
-    if (error != std::errc() || stop != end)
+    const auto number = base::number_in<decltype(element.count)>(count);
+    if (!number)
       refuse("line {}: found '{}' as a count of '{}', expected a whole number of 64 bits", line_,
              shown(count), shown(element.name));
+    element.count = *number;
     header_.elements.push_back(std::move(element));
   }
 
