@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scene/frame_parts.h"
+
 namespace tenebra::render {
 namespace {
 
@@ -11,9 +13,9 @@ void leave_out(const Scene& scene, const FrameGeometry& geometry, int left_out,
   std::size_t part = 0;  // of FrameGeometry::parts: one for each node with a mesh
   for (int i = 0; i < left_out; ++i) part += scene.nodes[static_cast<std::size_t>(i)].mesh >= 0;
   if (part >= geometry.parts.size()) return;
-  const std::size_t end = part + 1 < geometry.parts.size() ? geometry.parts[part + 1] : casters.size();
-  std::fill(casters.begin() + geometry.parts[part], casters.begin() + static_cast<std::ptrdiff_t>(end),
-            std::uint8_t{0});
+  const auto [first, end] = scene::triangles_of_part(geometry, part);
+  std::fill(casters.begin() + static_cast<std::ptrdiff_t>(first),
+            casters.begin() + static_cast<std::ptrdiff_t>(end), std::uint8_t{0});
 }
 
 }  // namespace

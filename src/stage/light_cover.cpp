@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/lower_case.h"
+#include "scene/frame_parts.h"
 
 namespace tenebra::stage {
 namespace {
@@ -26,9 +27,7 @@ std::vector<Part> parts_of(const Scene& scene, const FrameGeometry& frame) {
   std::vector<Part> parts;
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     if (scene.nodes[i].mesh < 0) continue;
-    const std::size_t begin = frame.parts[parts.size()];
-    const bool last = parts.size() + 1 == frame.parts.size();
-    const std::size_t end = last ? frame.triangles.size() : frame.parts[parts.size() + 1];
+    const auto [begin, end] = scene::triangles_of_part(frame, parts.size());
     Part& part = parts.emplace_back();
     part.node = static_cast<int>(i);
     for (std::size_t t = begin; t < end; ++t) {

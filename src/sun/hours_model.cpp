@@ -6,6 +6,7 @@
 
 #include "base/fail.h"
 #include "math/srgb.h"
+#include "scene/frame_parts.h"
 
 namespace tenebra::sun {
 namespace {
@@ -62,8 +63,7 @@ void paint_nodes(const Study& study, Painter& painter) {
   std::size_t part = 0;
   for (const Node& node : study.scene.nodes) {
     if (node.mesh < 0) continue;
-    const std::size_t first = frame.parts[part++];
-    const std::size_t end = part < frame.parts.size() ? frame.parts[part] : frame.triangles.size();
+    const auto [first, end] = scene::triangles_of_part(frame, part++);
     painter.begin(node.name);
     for (std::size_t t = first; t < end; ++t) {
       const glm::uvec3 corners = frame.triangles[t];

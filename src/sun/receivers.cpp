@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/fail.h"
+#include "scene/frame_parts.h"
 #include "sun/columns.h"
 
 namespace tenebra::sun {
@@ -108,8 +109,7 @@ Expected<Receivers> face_receivers(const Scene& scene, const FrameGeometry& fram
   std::size_t part = 0;
   for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
     if (scene.nodes[node].mesh < 0) continue;
-    const std::size_t first = frame.parts[part++];
-    const std::size_t end = part < frame.parts.size() ? frame.parts[part] : frame.triangles.size();
+    const auto [first, end] = scene::triangles_of_part(frame, part++);
     for (std::size_t t = first; t < end; ++t) {
       if (!(*nodes)[node] || !(*materials)[frame.materials[t]]) continue;
       const auto face = face_of(frame, t);
