@@ -1,30 +1,18 @@
 #include "sun/plan.h"
 
 #include <fmt/format.h>
+#include <stb/stb_easy_font.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace tenebra::sun {
 namespace {
 
-struct Glyph {
-  char letter;
-  std::array<std::uint8_t, 7> rows;  ///< five bits each, the leftmost highest
-};
-constexpr Glyph glyphs[] = {
-    {'0', {0x0E, 0x11, 0x13, 0x15, 0x19, 0x11, 0x0E}}, {'1', {0x04, 0x0C, 0x04, 0x04, 0x04, 0x04, 0x0E}},
-    {'2', {0x0E, 0x11, 0x01, 0x02, 0x04, 0x08, 0x1F}}, {'3', {0x1F, 0x02, 0x04, 0x02, 0x01, 0x11, 0x0E}},
-    {'4', {0x02, 0x06, 0x0A, 0x12, 0x1F, 0x02, 0x02}}, {'5', {0x1F, 0x10, 0x1E, 0x01, 0x01, 0x11, 0x0E}},
-    {'6', {0x06, 0x08, 0x10, 0x1E, 0x11, 0x11, 0x0E}}, {'7', {0x1F, 0x01, 0x02, 0x04, 0x08, 0x08, 0x08}},
-    {'8', {0x0E, 0x11, 0x11, 0x0E, 0x11, 0x11, 0x0E}}, {'9', {0x0E, 0x11, 0x11, 0x0F, 0x01, 0x02, 0x0C}},
-    {'.', {0x00, 0x00, 0x00, 0x00, 0x00, 0x0C, 0x0C}}, {'-', {0x00, 0x00, 0x00, 0x1F, 0x00, 0x00, 0x00}},
-    {'+', {0x00, 0x04, 0x04, 0x1F, 0x04, 0x04, 0x00}}, {'e', {0x00, 0x00, 0x0E, 0x11, 0x1F, 0x10, 0x0E}},
-    {'h', {0x10, 0x10, 0x16, 0x19, 0x11, 0x11, 0x11}}, {'m', {0x00, 0x00, 0x1A, 0x15, 0x15, 0x11, 0x11}}};
-
 // Pixels.
-constexpr int edge = 16, bar_width = 20, dot = 2, letter_height = 7 * dot, letter_step = 6 * dot;
+constexpr int edge = 16, bar_width = 20, dot = 2, letter_height = 7 * dot, letter_step = 7 * dot;
 constexpr int legend_width = 3 * edge / 2 + bar_width + 11 * letter_step, least_height = 160;
 constexpr glm::vec3 black(0);
 
@@ -39,13 +27,20 @@ public:
           image_.pixels[3 * (static_cast<std::size_t>(row) * image_.width + column) + c] =
               static_cast<std::uint8_t>(std::lround(255 * colour[c]));
   }
-  void write(int x, int y, const std::string& text) {
-    for (const char letter : text) {
-      for (const Glyph& glyph : glyphs)
-        for (int bit = 0; glyph.letter == letter && bit < 35; ++bit)
-          if (glyph.rows[static_cast<std::size_t>(bit / 5)] >> (4 - bit % 5) & 1)
-            fill(x + bit % 5 * dot, y + bit / 5 * dot, dot, dot, black);
-      x += letter_step;
+  void write(int x, int y, std::string text) {
+    struct Corner {
+      float x, y, z;
+      std::uint32_t colour;
+    };
+    std::array<Corner, 4096> corners;  // some 17 for each letter
+    const int quads =
+        stb_easy_font_print(0, 0, text.data(), nullptr, corners.data(), static_cast<int>(sizeof corners));
+    const auto pixel = [](float at) { return dot * static_cast<int>(at); };
+    for (int q = 0; q < quads; ++q) {
+      const Corner &low = corners[static_cast<std::size_t>(4 * q)],
+                   &high = corners[static_cast<std::size_t>(4 * q + 2)];
+      fill(x + pixel(low.x), y + pixel(low.y), pixel(high.x) - pixel(low.x), pixel(high.y) - pixel(low.y),
+           black);
     }
   }
   io::Image8 take() { return std::move(image_); }
