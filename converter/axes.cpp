@@ -18,6 +18,8 @@ bool take_axis(const aiMetadata& stated, const char* name, float* row) {
   return true;
 }
 
+/// Versions of Assimp that follow the axes turn the root themselves. The tolerance is that of products of
+/// rotations in floats; a turn of axes is a quarter turn at least.
 bool is_turned(const aiMatrix4x4& matrix) {
   for (unsigned row = 0; row < 3; ++row)
     for (unsigned column = 0; column < 3; ++column)

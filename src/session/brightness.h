@@ -19,7 +19,8 @@ bool any_mesh_shines(const Scene& scene);
 stage::Sky wanted_sun(const settings::SceneSettings& settings, const Scene& scene, bool environment);
 
 /// Lights what lamps with units and emissive meshes do not reach, where the file states no surroundings
-/// (Sky::automatic), or any scene (Sky::soft): by a grey sky that shows 0.12 where white faces it. With
+/// (Sky::automatic), or any scene (Sky::soft): by a grey sky that shows 0.12 where white faces it,
+/// at most 0.14 where an exposure of 1 will do. With
 /// Sky::none emissive meshes shine alone. Then sets the exposure of scenes whose brightness is not known: of
 /// lights with units, and of emissive meshes, lights and environments of the user's with which an exposure of
 /// 1 shows too much or too little. Files that state their surroundings are shown as they state. Nothing where

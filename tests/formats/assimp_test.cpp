@@ -131,7 +131,8 @@ TEST_F(Converted, MissingFile) {
 class ByAssimp : public Converted {
 protected:
   void SetUp() override {
-    if (formats::find_converter().program.empty()) GTEST_SKIP() << "built without Assimp";
+    if (formats::find_converter().program.empty())
+      GTEST_SKIP() << "built without Assimp (package libassimp-dev)";
   }
   Scene read(const std::string& name, const std::string& text,
              const formats::ImportOptions& options = {}) const {

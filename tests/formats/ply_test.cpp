@@ -6,8 +6,7 @@
 #include <chrono>
 #include <cstring>
 
-#include "formats/import_scene.h"
-#include "support/temporary_folder.h"
+#include "formats/text_scene.h"
 
 namespace tenebra {
 namespace {
@@ -29,23 +28,9 @@ std::string ply_text(const std::string& properties, const std::string& values) {
 }
 constexpr const char* ply_faces = "element face 1\nproperty list uchar int vertex_indices\n";
 
-class Ply : public ::testing::Test {
+class Ply : public testing::TextScene {
 protected:
-  Expected<Scene> import(const std::string& text, const formats::ImportOptions& options = {}) const {
-    write_text(folder_ / "a.ply", text);
-    return formats::import_scene(folder_ / "a.ply", options);
-  }
-  Scene read(const std::string& text) const {
-    auto scene = import(text);
-    EXPECT_TRUE(scene.has_value()) << scene.error().message;
-    return scene ? std::move(*scene) : Scene{};
-  }
-  std::string refusal(const std::string& text) const {
-    const auto scene = import(text);
-    EXPECT_FALSE(scene.has_value());
-    return scene ? "" : scene.error().message;
-  }
-  testing::TemporaryFolder folder_;
+  Ply() : TextScene("a.ply") {}
 };
 
 TEST_F(Ply, TextWithAPolygonIsCutAndMoreThanIsStatedInALineIsPassedOver) {

@@ -5,13 +5,10 @@
 #include <chrono>
 #include <cstdint>
 
-#include "formats/import_scene.h"
-#include "support/temporary_folder.h"
+#include "formats/text_scene.h"
 
 namespace tenebra {
 namespace {
-
-using testing::write_text;
 
 std::string facet(const std::string& vertices) {
   return "facet normal 0 0 1\nouter loop\n" + vertices + "endloop\nendfacet\n";
@@ -35,23 +32,13 @@ std::string binary_stl(std::uint32_t stated, int held, std::string begin = "soli
   return file;
 }
 
-class Stl : public ::testing::Test {
+class Stl : public testing::TextScene {
 protected:
-  Expected<Scene> import(const std::string& text) const {
-    write_text(folder_ / "a.STL", text);
-    return formats::import_scene(folder_ / "a.STL");
-  }
-  Scene read(const std::string& text) const {
-    auto scene = import(text);
-    EXPECT_TRUE(scene.has_value()) << scene.error().message;
-    return scene ? std::move(*scene) : Scene{};
-  }
+  Stl() : TextScene("a.STL") {}
   void refuses(const std::string& text, const char* part) const {
-    const auto scene = import(text);
-    ASSERT_FALSE(scene.has_value());
-    EXPECT_NE(scene.error().message.find(part), std::string::npos) << scene.error().message;
+    const std::string sentence = refusal(text);
+    EXPECT_NE(sentence.find(part), std::string::npos) << sentence;
   }
-  testing::TemporaryFolder folder_;
 };
 
 TEST_F(Stl, SolidsAreMeshesWithTheirNamesAndSharedVertices) {
