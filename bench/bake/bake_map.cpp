@@ -215,7 +215,7 @@ Expected<void> measure_bake_map(BakeSession& session) {
   MapScene map;
   if (auto loaded = load_map(size, map); !loaded) return loaded;
   progress(fmt::format("room: {} texels of {}x{}", map.texels(), size, size));
-  const auto reference = bake_map(map, {.precision = SoftPrecision::reference}, 1);
+  const auto reference = bake_map(map, {.solver = SoftSolver::bsp}, 1);  // found another way
   if (!reference) return tl::unexpected(reference.error());
   const MapTruth truth = truth_of(map, reference->reds);
   Table table(truth, session.report);

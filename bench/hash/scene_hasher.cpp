@@ -134,17 +134,17 @@ Expected<void> SceneHasher::hash_soft(const HashFrame& frame) {
     add(fmt::format("soft.{}.fraction", name), hash_of(soft_mask_.visible_fraction));
     add(fmt::format("soft.{}.irradiance", name), hash_of(soft_mask_.irradiance));
   };
-  const auto trace = [&](const std::string& name, SoftShadowConfig config) {
+  const auto trace = [&](const std::string& name, SoftShadowTracer& tracer, SoftShadowConfig config) {
     config.simd = setting_.level;
-    soft_.trace(frame_.points, frame_.normals, triangles, *light, config, soft_mask_);
+    tracer.trace(frame_.points, frame_.normals, triangles, *light, config, soft_mask_);
     keep(name);
   };
   for (const SoftSolver solver : {SoftSolver::automatic, SoftSolver::bsp, SoftSolver::clip}) {
     const std::string name(soft_solver_name(solver));
-    trace(name + ".fast", {.solver = solver});
-    trace(name + ".reference", {.solver = solver, .precision = SoftPrecision::reference});
+    trace(name + ".fast", soft_, {.solver = solver});
+    trace(name + ".reference", precise_soft_, {.solver = solver});
   }
-  trace("auto.triangle", {.grouping = SoftGrouping::triangle});
+  trace("auto.triangle", soft_, {.grouping = SoftGrouping::triangle});
   light_points_.trace(frame_.points, frame_.normals, triangles, *light, points_on_a_light,
                       {.simd = setting_.level}, soft_mask_);
   keep("points");

@@ -11,6 +11,7 @@
 #include "bench/common/bench_frame.h"
 #include "bench/hash/hash_frame.h"
 #include "render/light_points.h"
+#include "support/soft_precision.h"
 
 namespace tenebra::bench {
 
@@ -45,7 +46,7 @@ private:
   std::vector<HashItem> items_;
   ShadowTracer hard_;
   ShadowMask mask_;
-  SoftShadowTracer soft_;
+  SoftShadowTracer soft_, precise_soft_{soft::precise_solvers};
   render::LightPointShadows light_points_;
   SoftMask soft_mask_;
   AmbientOcclusion ambient_;

@@ -23,7 +23,7 @@ Expected<void> measure_soft_view(PaperSession& session, const SoftView& view, So
   plan.config = mora_config();
   plan.rounds = 1;
   plan.whole_curve = false;
-  if (session.effort != Effort::full) plan.truth = SoftPrecision::fast;
+  if (session.effort != Effort::full) plan.truth = testing::SoftPrecision::fast;
   trees.race = run_contest(view, plan, session.report);
   found.views.push_back(std::move(trees));
   if (!found.growth_view.empty() || !(view.name.starts_with("museum5") || view.name.starts_with("court")))

@@ -24,9 +24,12 @@ public:
         receivers_(sampled_receivers(view.frame)),
         picture_(view.frame.pixel_count()) {}
 
-  double time_tenebra(SoftShadowConfig config, SoftMask& out) {
+  double time_tenebra(const SoftShadowConfig& config, SoftMask& out) {
+    return time_tracer(tracer_, config, out);
+  }
+  double time_tracer(SoftShadowTracer& tracer, const SoftShadowConfig& config, SoftMask& out) {
     base::Stopwatch watch;
-    tracer_.trace(view_.frame.points, view_.frame.normals, view_.frame.triangles(), view_.light, config, out);
+    tracer.trace(view_.frame.points, view_.frame.normals, view_.frame.triangles(), view_.light, config, out);
     return watch.lap_ms();
   }
   double time_sampler(const SoftSampler& sampler) {
@@ -65,11 +68,10 @@ std::string rays_text(std::size_t rays) {
   return fmt::format("rays={}", rays);
 }
 
-Truth exact_answer(Ring& ring, SoftPrecision precision) {
-  SoftShadowConfig config;
-  config.precision = precision;
+Truth exact_answer(Ring& ring, testing::SoftPrecision precision) {
+  SoftShadowTracer tracer = testing::soft_tracer(precision);
   Truth truth;
-  const double ms = ring.time_tenebra(config, truth.mask);
+  const double ms = ring.time_tracer(tracer, {}, truth.mask);
   finish_truth(ring.view().frame, ring.view().light, truth);
   ring.note("reference", "", "time", ms, "ms");
   ring.note("reference", "", "white", truth.white, "");

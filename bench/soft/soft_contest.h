@@ -8,6 +8,7 @@
 #include "bench/common/bench_report.h"
 #include "bench/soft/soft_fair.h"
 #include "bench/soft/soft_views.h"
+#include "support/soft_precision.h"
 
 namespace tenebra::bench {
 
@@ -15,12 +16,12 @@ inline constexpr std::size_t most_rays = 512;     ///< if too few for equal qual
 inline constexpr double equal_quality_255 = 0.5;  ///< RMSE over the penumbra, in 1/255 of white
 
 struct ContestPlan {
-  std::string experiment = "figure7";              ///< as the report calls it
-  SoftShadowConfig config{};                       ///< of Tenebra's side
-  SoftPrecision truth = SoftPrecision::reference;  ///< what errors are measured against
-  int rounds = 5;                                  ///< timed runs of each contestant, in turn
-  bool whole_curve = true;                         ///< all powers of two up to most_rays, not only up to EQ
-  bool pictures = false;                           ///< keep the irradiance at equal time
+  std::string experiment = "figure7";                                ///< as the report calls it
+  SoftShadowConfig config{};                                         ///< of Tenebra's side
+  testing::SoftPrecision truth = testing::SoftPrecision::reference;  ///< what errors are measured against
+  int rounds = 5;           ///< timed runs of each contestant, in turn
+  bool whole_curve = true;  ///< all powers of two up to most_rays, not only up to EQ
+  bool pictures = false;    ///< keep the irradiance at equal time
 };
 
 /// What a number of rays per pixel gives and costs.

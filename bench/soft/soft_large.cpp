@@ -64,7 +64,7 @@ Expected<GrownLight> measure_grown(const SoftView& view, int rounds, Report& rep
   grown.name += fmt::format(", {} %", grown_percent);
   ContestPlan plan;
   plan.experiment = "figure9";
-  plan.truth = SoftPrecision::fast;
+  plan.truth = testing::SoftPrecision::fast;
   plan.rounds = rounds;
   plan.whole_curve = false;
   GrownLight out;

@@ -12,7 +12,7 @@ namespace {
 using glm::dvec3;
 using Polygon = std::vector<dvec3>;
 
-/// The exact answer's fractions are good to 1e-6 (SoftPrecision::reference), and stored in float.
+/// The exact answer's fractions are good to 1e-6 (support/soft_precision.h), and stored in float.
 constexpr double fraction_tolerance = 2e-6;
 
 /// The part of the polygon, around the point as origin, that lies above the plane through it.

@@ -13,6 +13,7 @@
 #include "bench/trade/trade_crops.h"
 #include "bench/trade/trade_session.h"
 #include "render/light_points.h"
+#include "support/soft_precision.h"
 
 namespace tenebra::bench {
 namespace {
@@ -76,10 +77,10 @@ Contestant& SoftTrade::add(const std::string& family, const std::string& setting
 }
 
 void SoftTrade::find_truth() {
-  const SoftShadowConfig config{.precision = SoftPrecision::reference};
+  SoftShadowTracer tracer = testing::soft_tracer(testing::SoftPrecision::reference);
   CostClock clock;
-  tracer_.trace(view_.frame.points, view_.frame.normals, view_.frame.triangles(), view_.light, config,
-                truth_.mask);
+  tracer.trace(view_.frame.points, view_.frame.normals, view_.frame.triangles(), view_.light, {},
+               truth_.mask);
   truth_ms_ = clock.ms();
   finish_truth(view_.frame, view_.light, truth_);
 }

@@ -30,23 +30,18 @@ enum class SoftGrouping {
 /// Which occluder the BSP merges next into an undefined leaf (Algorithm 1, line 31).
 enum class OccluderChoice { largest, random };
 
-/// How precisely the light is cut. fast: the occluders' lines are computed in double, and polygons on the
-/// light are cut in float, in units of the light. reference: double throughout.
-enum class SoftPrecision { fast, reference };
-
 /// How soft shadows are computed.
 struct SoftShadowConfig {
   SoftSolver solver = SoftSolver::automatic;            ///< the method; all give the same answer
   SoftGrouping grouping = SoftGrouping::neighbourhood;  ///< of points that share occluders
   OccluderChoice choice = OccluderChoice::largest;      ///< of the BSP
-  SoftPrecision precision = SoftPrecision::fast;        ///< of polygons on the light
   /// 1/255 of white, RMS over the penumbra, white being the 99.9th percentile of the frame's irradiance; 0:
   /// exact. Above 0, groups of points that many triangles may shadow are sampled at places on the light, by
   /// exact hard shadows: at as many as it takes until the estimated error (SoftStats::error_255) is no more
   /// than this. Points that are proved to see all or none of the light stay exact.
   double error_255 = 0;
   bool keep_trees = true;  ///< false: each point starts a new BSP (the paper's "modified version", Figure 8)
-  SimdLevel simd = SimdLevel::automatic;  ///< which vectors; see SoftPrecision for what answers depend on
+  SimdLevel simd = SimdLevel::automatic;  ///< which vectors; the bits are the same
   /// No BSP takes more bytes than this, nor more than 1 GiB or memory_bytes leaves: a point whose query would
   /// exceed it, and the group's points after it (with keep_trees), are clipped instead, with the same
   /// answers.

@@ -14,10 +14,16 @@
 
 namespace tenebra {
 
+namespace soft {
+struct SolverMakers;
+}
+
 /// Computes soft shadows. Keeps its buffers from frame to frame, and the statistics of the last mask.
 class SoftShadowTracer {
 public:
   SoftShadowTracer();
+  /// With solvers in place of the library's own, for tests and measurements.
+  explicit SoftShadowTracer(const soft::SolverMakers& solvers);
   SoftShadowTracer(SoftShadowTracer&&) noexcept;
   SoftShadowTracer& operator=(SoftShadowTracer&&) noexcept;
   ~SoftShadowTracer();
@@ -34,10 +40,10 @@ public:
   /// With TriangleView::normals points of a smooth R may be lifted off it: those that lie off R's plane by
   /// more than theta see Q on both sides of it, and R may block them as any triangle.
   /// visible_fraction is the area of those Q over the light's; irradiance is the integral over them, clamped
-  /// to the shading normal's hemisphere. Errors: `reference` 1e-6 of the fraction, or 2^-48 of the distance
-  /// over the light's size if that is more; `fast` 0.1/255 of the unoccluded irradiance (lights of at least
-  /// 1e-10 of their distance). With config.error_255 the irradiance of dense penumbrae may err by
-  /// that, as estimated (see there). The bits are the same for any number of threads.
+  /// to the shading normal's hemisphere. Occluders' lines are computed in double, and polygons on the light
+  /// are cut in float, in units of the light: the error is at most 0.1/255 of the unoccluded irradiance
+  /// (lights of at least 1e-10 of their distance). With config.error_255 the irradiance of dense penumbrae
+  /// may err by that, as estimated (see there). The bits are the same for any number of threads.
   ///
   /// Returns false, with `out` unspecified, if `stop` was requested before the end, or for refusal().
   bool trace(const VisiblePoints& points, std::span<const glm::vec3> normals, const TriangleView& triangles,

@@ -100,7 +100,7 @@ public:
   /// SoftShadowTracer::trace.
   ///
   /// Up to 24 triangles of constant transmittance before a point: the visible part is cut along their shadows
-  /// and each piece is integrated exactly, in the precision of SoftPrecision::fast. More of them, or textures
+  /// and each piece is integrated exactly, in float. More of them, or textures
   /// and vertex colours that vary: 4,096 places of the light, one in each cell of a 64 x 64 grid around it
   /// (docs/see_through.md says how exact that is), or fewer where config.error_255 allows it.
   ///

@@ -47,8 +47,6 @@ inline constexpr std::array grouping_choices{
     Choice<SoftGrouping>{"triangle", SoftGrouping::triangle}};
 inline constexpr std::array occluder_choices{Choice<OccluderChoice>{"largest", OccluderChoice::largest},
                                              Choice<OccluderChoice>{"random", OccluderChoice::random}};
-inline constexpr std::array precision_choices{Choice<SoftPrecision>{"fast", SoftPrecision::fast},
-                                              Choice<SoftPrecision>{"reference", SoftPrecision::reference}};
 inline constexpr std::array ao_choices{
     Choice<AoMode>{"none", AoMode::none}, Choice<AoMode>{"adaptive", AoMode::adaptive},
     Choice<AoMode>{"field", AoMode::field}, Choice<AoMode>{"rays", AoMode::rays}};

@@ -106,12 +106,6 @@ void add_soft_solvers(MethodRows& rows) {
        .audience = Audience::paper,
        .used = Used::with_soft_exact},
       [](auto& method) -> auto& { return method.render.soft.choice; }, occluder_choices));
-  rows.push_back(MethodRow::words(
-      {.name = "soft-precision",
-       .help = "reference: double precision throughout",
-       .audience = Audience::paper,
-       .used = Used::with_soft_exact},
-      [](auto& method) -> auto& { return method.render.soft.precision; }, precision_choices));
 }
 
 void add_soft_accuracy(MethodRows& rows) {

@@ -68,6 +68,9 @@ std::optional<SoftSolver> soft_solver_from_name(std::string_view name) {
 }
 
 struct SoftShadowTracer::State {
+  explicit State(const soft::SolverMakers& solvers) : makers(solvers) {}
+
+  soft::SolverMakers makers;
   bool at_work = false;     ///< or was when memory ran out: lists may not be whole
   VisiblePoints positions;  ///< where the given points have none
   soft::PointGrouper grouper;
@@ -124,7 +127,7 @@ void SoftShadowTracer::State::prepare(const SoftShadowConfig& config) {
   refusal.clear();
   for (Worker& worker : workers) {
     if (!worker.solver)
-      worker.solver = std::make_unique<soft::GroupSolver>(level, memory_bytes ? &pool : nullptr);
+      worker.solver = std::make_unique<soft::GroupSolver>(level, makers, memory_bytes ? &pool : nullptr);
     worker.solver->stats = {};
     worker.solver->times = {};
     worker.sampled.clear();
@@ -317,7 +320,9 @@ void SoftShadowTracer::State::count_shafts() {
   timings.shaft_ms += culler.stats().seconds * 1e3 / threads_at_work();
 }
 
-SoftShadowTracer::SoftShadowTracer() : state_(std::make_unique<State>()) {}
+SoftShadowTracer::SoftShadowTracer() : SoftShadowTracer(soft::own_solvers) {}
+SoftShadowTracer::SoftShadowTracer(const soft::SolverMakers& solvers)
+    : state_(std::make_unique<State>(solvers)) {}
 SoftShadowTracer::SoftShadowTracer(SoftShadowTracer&&) noexcept = default;
 SoftShadowTracer& SoftShadowTracer::operator=(SoftShadowTracer&&) noexcept = default;
 SoftShadowTracer::~SoftShadowTracer() = default;
@@ -326,7 +331,7 @@ bool SoftShadowTracer::trace(const VisiblePoints& seen, std::span<const glm::vec
                              const TriangleView& triangles, const AreaLight& light,
                              const SoftShadowConfig& config, SoftMask& out, const StopFlag* stop) {
   const parallel::FloatEnvironment ieee;
-  if (state_->at_work) state_ = std::make_unique<State>();
+  if (state_->at_work) state_ = std::make_unique<State>(state_->makers);
   state_->at_work = true;
   const bool done = state_->trace(seen, normals, triangles, light, config, out, stop);
   state_->at_work = false;

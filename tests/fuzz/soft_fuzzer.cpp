@@ -1,21 +1,23 @@
 // Soft shadows of triangles from bytes: every solver gives the same bits at every vector level, and in its
-// reference precision the fraction of the oracle, for a part of the inputs in rational numbers.
+// double the fraction of the oracle, for a part of the inputs in rational numbers.
 #include <fmt/format.h>
 
 #include <tenebra/soft_shadows.h>
 #include "fuzz/soup_bytes.h"
 #include "oracle/exact_soft.h"
+#include "support/soft_precision.h"
 
 namespace {
 
 using namespace tenebra;
 
-// What soft_shadows.h promises; the points are less than 2^20 sizes of the light away.
+// What soft_precision.h promises; the points are less than 2^20 sizes of the light away.
 constexpr double promised = 1e-6;
 
-SoftMask traced(const fuzz::SoupCase& c, const AreaLight& light, const SoftShadowConfig& config) {
+SoftMask traced(const fuzz::SoupCase& c, const AreaLight& light, const SoftShadowConfig& config,
+                testing::SoftPrecision precision = testing::SoftPrecision::fast) {
   SoftMask mask;
-  SoftShadowTracer().trace(c.points, {}, c.soup.view(), light, config, mask);
+  testing::soft_tracer(precision).trace(c.points, {}, c.soup.view(), light, config, mask);
   return mask;
 }
 
@@ -45,10 +47,9 @@ void check_levels(const fuzz::SoupCase& c, const AreaLight& light, SoftShadowCon
   }
 }
 
-void check_fractions(const fuzz::SoupCase& c, const AreaLight& light, SoftShadowConfig config,
+void check_fractions(const fuzz::SoupCase& c, const AreaLight& light, const SoftShadowConfig& config,
                      const std::vector<oracle::SoftAnswer>& answers) {
-  config.precision = SoftPrecision::reference;
-  const SoftMask mask = traced(c, light, config);
+  const SoftMask mask = traced(c, light, config, testing::SoftPrecision::reference);
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const double off = std::abs(mask.visible_fraction[i] - answers[i].visible_fraction);
     if (!answers[i].at_plane && !in_plane(light, c.points.positions[i]) &&

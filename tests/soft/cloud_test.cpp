@@ -30,7 +30,7 @@ struct Seen {
 /// Traces with c's configuration; fractions are within the bound of its precision.
 void expect_near(const SoftCase& c, const SoftMask& expected, Seen& seen) {
   const SoftMask mask = traced(c, c.config);
-  const double bound = c.config.precision == SoftPrecision::reference ? 1e-6 : fast_bound;
+  const double bound = c.precision == SoftPrecision::reference ? 1e-6 : fast_bound;
   for (std::size_t i = 0; i < c.size(); ++i) {
     const float e = expected.visible_fraction[i];
     seen.between += e > 0 && e < 1;
@@ -53,12 +53,12 @@ TEST(SoftCloud, GivesWhatTheBspGives) {
   Seen seen;
   for (const auto& [count, size] : {std::pair(700, 0.5), std::pair(3000, 0.12)}) {
     SoftCase c = below_cloud("leaves, seed 93", count, size, 20, 93);
-    c.config.precision = SoftPrecision::reference;
+    c.precision = SoftPrecision::reference;
     c.config.solver = SoftSolver::bsp;
     const SoftMask expected = traced(c, c.config);
     for (const SoftPrecision precision : {SoftPrecision::reference, SoftPrecision::fast}) {
       c.config.solver = SoftSolver::clip;
-      c.config.precision = precision;
+      c.precision = precision;
       expect_near(c, expected, seen);
     }
   }
@@ -73,12 +73,12 @@ TEST(SoftCloud, GroupsTogetherSeeWhatEachSees) {
   for (int i = 0; i < 1500; ++i)
     c.soup.quad(glm::dvec3(0, 2.5, 0) + random.in_cube(1), random.in_cube(0.06), random.in_cube(0.06));
   c.config.solver = SoftSolver::clip;
-  c.config.precision = SoftPrecision::reference;
+  c.precision = SoftPrecision::reference;
   const SoftMask expected = traced(c, c.config);
   Seen seen;
   for (const SoftPrecision precision : {SoftPrecision::reference, SoftPrecision::fast}) {
     c.config.solver = SoftSolver::automatic;
-    c.config.precision = precision;
+    c.precision = precision;
     expect_near(c, expected, seen);
   }
   EXPECT_GT(seen.between, 400u);

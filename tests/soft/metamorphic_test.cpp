@@ -223,9 +223,8 @@ TEST(SoftMetamorphic, ACropOfThePictureIsThePictureOfTheCrop) {
 }
 
 /// Every choice that decides the work and not the answer, one at a time.
-std::vector<std::pair<std::string, SoftShadowConfig>> choices(SoftPrecision precision) {
-  SoftShadowConfig base;
-  base.precision = precision;
+std::vector<std::pair<std::string, SoftShadowConfig>> choices() {
+  const SoftShadowConfig base;
   std::vector<std::pair<std::string, SoftShadowConfig>> out{{"auto", base}};
   const auto add = [&](const char* name, auto change) {
     out.emplace_back(name, base);
@@ -248,8 +247,8 @@ void expect_same_for_all_choices(const SoftCase& c) {
     const double white = white_of(c, expected);
     const double bound =
         precision == SoftPrecision::reference ? 2 * reference_bound : fast_bound + reference_bound;
-    for (const auto& [name, config] : choices(precision)) {
-      const SoftMask mask = traced(c, config);
+    for (const auto& [name, config] : choices()) {
+      const SoftMask mask = traced(c, precision, config);
       EXPECT_LE(distance(mask, expected), bound)
           << c.name << ", " << name << ", precision " << int(precision);
       for (std::size_t i = 0; i < c.size(); ++i)

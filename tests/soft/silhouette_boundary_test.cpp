@@ -33,12 +33,12 @@ SoftCase over_floor(const std::string& name, const Soup& mesh, double half_light
 
 /// How many of the points were solved by the silhouette; `between`: how many see a part of the light.
 std::size_t expect_what_clipping_gives(SoftCase c, std::size_t& between) {
-  c.config.precision = SoftPrecision::reference;
+  c.precision = SoftPrecision::reference;
   c.config.solver = SoftSolver::clip;
   const SoftMask expected = traced(c, c.config);
   c.config.solver = SoftSolver::automatic;
   const SoftMask precise = traced(c, c.config);
-  c.config.precision = SoftPrecision::fast;
+  c.precision = SoftPrecision::fast;
   SoftStats stats;
   const SoftMask fast = traced(c, c.config, &stats);
   const double white = white_of(c, expected);

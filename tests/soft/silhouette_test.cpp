@@ -237,11 +237,10 @@ TEST(SoftSilhouette, GivesWhatClippingGives) {
   for (SoftCase& c : mesh_cases()) {
     SoftStats stats;
     SoftShadowConfig config;
-    config.precision = SoftPrecision::reference;
     config.solver = SoftSolver::clip;
-    const SoftMask expected = traced(c, config);
+    const SoftMask expected = traced(c, SoftPrecision::reference, config);
     config.solver = SoftSolver::automatic;
-    const SoftMask precise = traced(c, config, &stats);
+    const SoftMask precise = traced(c, SoftPrecision::reference, config, &stats);
     by_silhouette += stats.points_silhouette;
     const SoftMask fast = traced(c, SoftPrecision::fast);
     const double white = white_of(c, expected);

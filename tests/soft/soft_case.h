@@ -17,6 +17,7 @@
 #include "parallel/parallel.h"
 #include "support/samples.h"
 #include "support/scaled.h"
+#include "support/soft_precision.h"
 #include "support/soup.h"
 
 namespace tenebra::testing {
@@ -30,12 +31,14 @@ struct SoftCase {
   VisiblePoints points;
   std::vector<glm::vec3> normals;  ///< one for each pixel, or empty
   SoftShadowConfig config;
+  SoftPrecision precision = SoftPrecision::fast;
 
   std::size_t size() const { return points.positions.size(); }
 };
 
-inline SoftMask traced(const SoftCase& c, const SoftShadowConfig& config, SoftStats* stats = nullptr) {
-  SoftShadowTracer tracer;
+inline SoftMask traced(const SoftCase& c, SoftPrecision precision, const SoftShadowConfig& config,
+                       SoftStats* stats = nullptr) {
+  SoftShadowTracer tracer = soft_tracer(precision);
   SoftMask mask;
   EXPECT_TRUE(tracer.trace(seen_from(c.points, c.view), c.normals, c.soup.view(), c.light, config, mask))
       << c.name;
@@ -45,10 +48,11 @@ inline SoftMask traced(const SoftCase& c, const SoftShadowConfig& config, SoftSt
   if (stats != nullptr) *stats += tracer.stats();
   return mask;
 }
+inline SoftMask traced(const SoftCase& c, const SoftShadowConfig& config, SoftStats* stats = nullptr) {
+  return traced(c, c.precision, config, stats);
+}
 inline SoftMask traced(const SoftCase& c, SoftPrecision precision) {
-  SoftShadowConfig config = c.config;
-  config.precision = precision;
-  return traced(c, config);
+  return traced(c, precision, c.config);
 }
 
 /// The answers of the oracle at some pixels, on all cores. Pixels with more than 200 occluders (2,000 where

@@ -275,7 +275,6 @@ std::vector<BadUse> bad_uses() {
                                                       {"--paper", "soft-solver=best"},
                                                       {"--paper", "soft-grouping=pixel"},
                                                       {"--paper", "soft-choice=first"},
-                                                      {"--paper", "soft-precision=double"},
                                                       {"--paper", "samples=depth", "--shadows", "soft"},
                                                       {"--paper", "samples=depth", "--ao", "rays"},
                                                       {"--paper", "cull=front", "--shadows", "soft"},

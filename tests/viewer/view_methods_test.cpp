@@ -32,7 +32,6 @@ TEST_F(ViewWindow, FlipsEveryMethod) {
   shows("solver.bsp", "--paper soft-solver=bsp");
   shows("solver.clip", "--paper soft-solver=clip");
   shows("grouping.triangle", "--paper soft-grouping=triangle");
-  shows("precision.reference", "--paper soft-precision=reference");
   EXPECT_GT(shows("ao.rays", "--ao rays")["ao_points"], 0);
   EXPECT_GT(shows("ao.adaptive", "--ao adaptive")["ao_points"], 0);
   EXPECT_GT(shows("ao.field", "--ao field")["ao_points"], 0);

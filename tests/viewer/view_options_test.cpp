@@ -91,8 +91,7 @@ TEST(MethodArguments, GiveBackWhatTheyWereMadeFrom) {
         "--paper cull=front",
         "--shadows soft --light-size 0.5x0.25 --light-size facing=1,2.5,-3 --light-size emission=lambert "
         "--emissive-lights --paper soft-solver=bsp "
-        "--paper soft-grouping=triangle --paper soft-choice=random --paper soft-precision=reference --memory "
-        "soft:300 "
+        "--paper soft-grouping=triangle --paper soft-choice=random --memory soft:300 "
         "--paper soft-points=12 --soft-error 1.5",
         "--light-size 4x4%", "--light-size sun=0.53",
         "--ao field --paper ao-at=vertices --paper ao-layout=positions --ao-rays 7 --paper ao-downscale=3 "

@@ -32,7 +32,7 @@ namespace {
 constexpr std::size_t all_samples = std::numeric_limits<std::size_t>::max();
 constexpr std::size_t usual_fractions = 1000;  // of a light in a frame
 /// How far a visible fraction may be off: tenebra/soft_shadows.h.
-constexpr double fast_promise = 0.1 / 255, reference_promise = 1e-6;
+constexpr double promised_error = 0.1 / 255;
 
 constexpr const char* verify_examples =
     "Examples:\n"
@@ -53,9 +53,8 @@ constexpr const char* verify_examples =
     "With --shadows soft the visible fractions of lights with an area are checked: which triangles hide what "
     "is\n"
     "found exactly, the area that they leave with a bound. A fraction may be off by as much as is promised:\n"
-    "0.1/255, or 1e-6 with --paper soft-precision=reference. The time of a sample grows with the square of "
-    "its\n"
-    "occluders: those with more than 1000 are skipped, and counted.\n"
+    "0.1/255. The time of a sample grows with the square of its occluders: those with more than 1000 are\n"
+    "skipped, and counted.\n"
     "Exit code: 0 all are right, 1 failed (one sentence says why), 2 some are wrong, 130 or 143 stopped by\n"
     "a signal; what was checked until then is reported.";
 
@@ -101,7 +100,6 @@ std::vector<render::LogSetting> describe_run(const VerifyOptions& options, const
   if (plan.settings.shadows != render::ShadowMode::soft) return run;
   run.push_back({"samples of each light with an area", counted(options.samples.value_or(usual_fractions))});
   run.push_back({"soft-solver", choice_name(solver_choices, plan.settings.soft.solver)});
-  run.push_back({"soft-precision", choice_name(precision_choices, plan.settings.soft.precision)});
   return run;
 }
 
@@ -185,14 +183,13 @@ private:
                        const TriangleView& triangles, const render::LightMask& mask,
                        const std::vector<std::size_t>& pixels, StopSignals& stop) {
     base::Stopwatch watch;
-    const bool fast = plan_.settings.soft.precision == SoftPrecision::fast;
     const oracle::ExactSoft front(view, triangles, *light.area);
     std::optional<oracle::ExactSoft> back;
     if (render::shines_behind(light)) back.emplace(view, triangles, *light.back);
     CheckedFractions checked{.frame = frame,
                              .light = mask.light,
                              .width = plan_.settings.width,
-                             .promise = fast ? fast_promise : reference_promise,
+                             .promise = promised_error,
                              .check = {}};
     const oracle::FractionRequest request{
         .front = &front, .back = back ? &*back : nullptr, .promise = checked.promise};

@@ -7,10 +7,9 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
 }
 
 void add_tracer_options(CLI::App& command, MethodOptions& options) {
-  add_settings(
-      command, settings::method_table(), options,
-      {"light", "variant", "cull", "threads", "simd", "shadows", "light-size", "sun-size", "light-facing",
-       "light-emission", "emissive-lights", "soft-solver", "soft-precision", "soft-memory"});
+  add_settings(command, settings::method_table(), options,
+               {"light", "variant", "cull", "threads", "simd", "shadows", "light-size", "sun-size",
+                "light-facing", "light-emission", "emissive-lights", "soft-solver", "soft-memory"});
 }
 
 void settle_quality(const CLI::App& command, MethodOptions& options) {

@@ -10,9 +10,7 @@ namespace tenebra::soft {
 
 namespace {
 
-using MakeSolver = std::unique_ptr<Solver> (*)(SimdLevel);
-
-Solver& made(std::unique_ptr<Solver>& solver, MakeSolver make, SimdLevel level) {
+Solver& made(std::unique_ptr<Solver>& solver, SolverMakers::Make make, SimdLevel level) {
   if (!solver) solver = make(level);
   return *solver;
 }
@@ -31,13 +29,12 @@ SoftClass class_of(const SoftFrame& frame, const PreparedGroup& group) {
 
 }  // namespace
 
-GroupSolver::GroupSolver(SimdLevel level, MemoryPool* pool)
-    : level_(level), memory_(pool), preparer_(level), lit_(make_lit_solver(level)) {}
+GroupSolver::GroupSolver(SimdLevel level, const SolverMakers& makers, MemoryPool* pool)
+    : level_(level), makers_(makers), memory_(pool), preparer_(level), lit_(make_lit_solver(level)) {}
 
 void GroupSolver::release() {
   preparer_ = GroupPreparer(level_);
-  for (std::unique_ptr<Solver>* solver : {&points_, &packets_, &bsp_, &reference_, &reference_bsp_})
-    solver->reset();
+  for (std::unique_ptr<Solver>* solver : {&points_, &packets_, &bsp_}) solver->reset();
   memory_.release();
 }
 
@@ -114,13 +111,10 @@ void GroupSolver::solve_prepared(const SoftFrame& frame, PreparedGroup group,
 /// Clipping was faster than the BSP on every frame measured (1.0 to 2 times): the BSP is used only if asked
 /// for by name.
 Solver& GroupSolver::solver_of(const SoftFrame& frame, const PreparedGroup& group) {
-  const bool reference = frame.config.precision == SoftPrecision::reference;
-  if (frame.config.solver == SoftSolver::bsp)
-    return reference ? made(reference_bsp_, make_reference_bsp_solver, level_)
-                     : made(bsp_, make_bsp_solver, level_);
-  if (reference) return made(reference_, make_reference_solver, level_);
-  if (wants_packets(frame, group)) return made(packets_, make_packet_solver, level_);
-  return made(points_, make_point_solver, level_);
+  if (frame.config.solver == SoftSolver::bsp) return made(bsp_, makers_.bsp, level_);
+  if (makers_.packets != nullptr && wants_packets(frame, group))
+    return made(packets_, makers_.packets, level_);
+  return made(points_, makers_.points, level_);
 }
 
 }  // namespace tenebra::soft

@@ -19,7 +19,7 @@ struct SolverTimes {
 class GroupSolver {
 public:
   /// `pool`: asked for memory before it is taken; null: there is no bound.
-  explicit GroupSolver(SimdLevel level, MemoryPool* pool = nullptr);
+  explicit GroupSolver(SimdLevel level, const SolverMakers& makers = own_solvers, MemoryPool* pool = nullptr);
 
   /// Fills out's pixels of the group, only some of them if frame.stop was requested. The result depends on
   /// the group alone. False, and nothing is counted, if there was no memory.
@@ -49,11 +49,12 @@ private:
   void solve_family(const SoftFrame& frame, const GroupFrame& around, std::span<const GroupTask> tasks);
 
   SimdLevel level_;
+  SolverMakers makers_;
   MemoryHold memory_;
   GroupPreparer preparer_;
   std::unique_ptr<LitSolver> lit_;
   /// Each is made when it is first asked for.
-  std::unique_ptr<Solver> points_, packets_, bsp_, reference_, reference_bsp_;
+  std::unique_ptr<Solver> points_, packets_, bsp_;
 };
 
 }  // namespace tenebra::soft

@@ -32,9 +32,14 @@ std::unique_ptr<Solver> make_packet_solver(SimdLevel level);
 /// The paper's BSP of line classes.
 std::unique_ptr<Solver> make_bsp_solver(SimdLevel level);
 
-/// The point and the BSP solver in double throughout (SoftPrecision::reference).
-std::unique_ptr<Solver> make_reference_solver(SimdLevel level);
-std::unique_ptr<Solver> make_reference_bsp_solver(SimdLevel level);
+/// What a tracer solves its groups with.
+struct SolverMakers {
+  using Make = std::unique_ptr<Solver> (*)(SimdLevel);
+  Make points = make_point_solver;
+  Make packets = make_packet_solver;  ///< null: the point solver takes their groups, too
+  Make bsp = make_bsp_solver;
+};
+inline constexpr SolverMakers own_solvers;
 
 /// Points that nothing stands in front of: only a horizon may cut the light.
 class LitSolver {

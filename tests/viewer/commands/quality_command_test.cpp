@@ -117,7 +117,7 @@ TEST(QualityOption, SaysWhereItDoesNothing) {
   EXPECT_EQ(with({"--quality", "fast", "--paper", "soft-solver=bsp"}), "");
   EXPECT_EQ(with({"--paper", "soft-points=8", "--paper", "soft-solver=bsp"}),
             "warning: --paper soft-solver does nothing where lights are 8 points\n");
-  EXPECT_EQ(with({"--paper", "soft-points=0", "--paper", "soft-precision=reference"}), "");
+  EXPECT_EQ(with({"--paper", "soft-points=0", "--paper", "soft-choice=random"}), "");
   EXPECT_EQ(warnings({"--shadows", "none", "--paper", "samples=depth", "--paper", "variant=Spheres"}),
             "warning: --paper variant does nothing with --shadows none\n"
             "warning: --paper samples does nothing with --shadows none\n");

@@ -76,7 +76,7 @@ TEST(SoftCommand, WritesTheVisibleFractionInEightAndThirtyTwoBits) {
   const std::string log = read_text(folder / "log.csv");
   for (const char* setting :
        {"# shadows: soft\n", "# soft_solver: auto\n", "# soft_grouping: neighbourhood\n",
-        "# soft_choice: largest\n", "# soft_precision: fast\n", "# light_size: 1.5x0.5\n", "# ao: none\n"}) {
+        "# soft_choice: largest\n", "# light_size: 1.5x0.5\n", "# ao: none\n"}) {
     EXPECT_NE(log.find(setting), std::string::npos) << setting << log;
   }
   const auto table = tenebra({"render", write_moving_scene(folder), "--shadows", "soft", "--light-size",
@@ -94,7 +94,6 @@ TEST(SoftCommand, EverySettingOfTheSolversDrawsTheSamePicture) {
                                                        {"--paper", "soft-solver=clip"},
                                                        {"--paper", "soft-grouping=triangle"},
                                                        {"--paper", "soft-choice=random"},
-                                                       {"--paper", "soft-precision=reference"},
                                                        {"--threads", "1"},
                                                        {"--simd", "scalar"}};
   io::Image8 expected;

@@ -102,7 +102,6 @@ void edit_soft(Ui& ui, MethodOptions& method) {
   edit_words(ui, method, "Solver", "soft-solver", "solver");
   edit_words(ui, method, "Groups", "soft-grouping", "grouping");
   edit_words(ui, method, "Occluder", "soft-choice", "occluder");
-  edit_words(ui, method, "Precision", "soft-precision", "precision");
   row(ui, "Memory", "For BSPs of any size and candidates, in MB. 0: what the system has, and 4 for a BSP.");
   int memory_mb = soft_memory_mb(soft).value_or(0);
   if (number_field(ui, "soft memory", memory_mb, 0, 1000000, 64)) limit_soft_memory(memory_mb, soft);

@@ -1,7 +1,8 @@
-#include "soft/solve/solvers.h"
+// The point solver in double throughout: what answers are checked against.
+#include "support/soft_precision.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "soft/solve/reference_solver.cpp"
+#define HWY_TARGET_INCLUDE "support/precise_points.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h
 #include "simd/dispatch.h"
@@ -13,7 +14,7 @@ namespace tenebra::soft::HWY_NAMESPACE {
 
 template class ClipSolver<OnePoint<double>>;  // the BSP solver's, too
 
-std::unique_ptr<Solver> make_reference_points() {
+std::unique_ptr<Solver> make_precise_points() {
   return std::make_unique<PointSolver<double>>();
 }
 
@@ -24,8 +25,8 @@ HWY_AFTER_NAMESPACE();
 
 namespace tenebra::soft {
 
-std::unique_ptr<Solver> make_reference_solver(SimdLevel level) {
-  return TENEBRA_DISPATCH(level, make_reference_points)();
+std::unique_ptr<Solver> make_precise_point_solver(SimdLevel level) {
+  return TENEBRA_DISPATCH(level, make_precise_points)();
 }
 
 }  // namespace tenebra::soft

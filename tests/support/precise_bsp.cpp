@@ -1,7 +1,8 @@
-#include "soft/solve/solvers.h"
+// The BSP solver in double throughout.
+#include "support/soft_precision.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "soft/solve/reference_bsp_solver.cpp"
+#define HWY_TARGET_INCLUDE "support/precise_bsp.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h
 #include "simd/dispatch.h"
@@ -11,9 +12,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace tenebra::soft::HWY_NAMESPACE {
 
-extern template class ClipSolver<OnePoint<double>>;  // reference_solver.cpp
+extern template class ClipSolver<OnePoint<double>>;  // precise_points.cpp
 
-std::unique_ptr<Solver> make_reference_bsp() {
+std::unique_ptr<Solver> make_precise_bsp() {
   return std::make_unique<BspSolver<double>>();
 }
 
@@ -24,8 +25,8 @@ HWY_AFTER_NAMESPACE();
 
 namespace tenebra::soft {
 
-std::unique_ptr<Solver> make_reference_bsp_solver(SimdLevel level) {
-  return TENEBRA_DISPATCH(level, make_reference_bsp)();
+std::unique_ptr<Solver> make_precise_bsp_solver(SimdLevel level) {
+  return TENEBRA_DISPATCH(level, make_precise_bsp)();
 }
 
 }  // namespace tenebra::soft
