@@ -100,7 +100,8 @@ std::vector<TreeTask> tree_tasks(const SoftView& view, const SoftShadowConfig& c
 TreeLife live(const soft::SoftFrame& frame, TreeTask& task, std::size_t rows) {
   task.frame.receivers = task.receivers;
   soft::GroupPreparer preparer(SimdLevel::automatic);
-  const soft::PreparedGroup group = preparer.prepare(frame, {task.pixels, task.frame, task.candidates});
+  soft::PreparedGroup group = preparer.prepare(frame, {task.pixels, task.frame, task.candidates});
+  group.tree_bytes = std::min(frame.config.tree_bytes, soft::largest_tree_bytes);
   const auto solver = soft::make_bsp_solver(SimdLevel::automatic);
   solver->begin(frame, group);
   TreeLife life;

@@ -47,10 +47,10 @@ struct SoftShadowConfig {
   /// answers.
   std::size_t tree_bytes = std::size_t{4} << 20;
   /// Bytes for BSPs, candidates, and the lists of them that wait to be solved, of all threads together; none:
-  /// as many as the system has. A group of points that finds no room beside those of other threads is solved
-  /// alone, once they are done: of the BSP, what is found follows from this number and not from the threads;
-  /// of the other solvers it has the same bits as without a bound. Points whose candidates do not fit even
-  /// then are the end of the frame: SoftShadowTracer::refusal().
+  /// as many as the system has. Points that are solved together need some by the number of their candidates:
+  /// those that need much are solved one after the other, and those that need more than three quarters of it
+  /// end the frame: SoftShadowTracer::refusal(). Of the BSP, what is found follows from this number and not
+  /// from the threads; of the other solvers it has the same bits as without a bound.
   std::optional<std::size_t> memory_bytes;
 };
 

@@ -31,7 +31,7 @@ void add_back(const VisiblePoints& points, const AreaLight& front, const SampleL
 
 void Lighter::note_changed_groups(const SoftShadowConfig& config, std::vector<std::string>& notes) const {
   if (!groups_changed_) return;
-  // A tree gets less than a third of what all have together (MemoryHold::largest_tree).
+  // A tree gets less than a quarter of what all have together (soft::largest_tree).
   const bool together = config.memory_bytes && *config.memory_bytes / 4 < config.tree_bytes;
   const std::size_t most = together ? *config.memory_bytes : config.tree_bytes;
   notes.push_back(fmt::format(

@@ -30,13 +30,8 @@ constexpr base::Names<SoftSolver, 3> solver_names = {{
 constexpr std::size_t many_candidates = 1024;
 static_assert(soft::largest_family <= soft::FamilyCandidates::most_groups);
 
-/// How a group is solved in a later pass: not at all, as its family's candidates want it, or as it was put
-/// aside (the others of its family may be solved by now, and the bits depend on whom it is solved with).
-enum class Again : std::uint8_t { no, yes, alone, together };
-
-/// The state of one thread: its solver, the groups of the current family that need it, the groups of all
-/// families that are sampled at places on the light in the end, and those that found no memory beside
-/// others'.
+/// The state of one thread: its solver, the groups of the current family that need it, and the groups of all
+/// families that are sampled at places on the light in the end.
 struct alignas(64) Worker {
   std::unique_ptr<soft::GroupSolver> solver;
   std::vector<std::span<const std::uint32_t>> lit;  ///< pixels of each
@@ -45,16 +40,14 @@ struct alignas(64) Worker {
   std::vector<std::vector<std::uint32_t>> receivers;       ///< of each
   std::vector<soft::GroupTask> tasks;
   std::vector<soft::SampledGroup> sampled;
-  std::vector<std::uint32_t> aside, family_aside;  ///< groups: to be solved alone, or with their family
 };
 
-std::string refusal_of(std::size_t needed, std::size_t most) {
+std::string refusal_of(std::size_t least, std::size_t most) {
   const auto mb = [](std::size_t bytes) { return std::max(std::size_t{1}, bytes >> 20); };
-  const std::size_t all = needed / (soft::share_of_lists - 1) * soft::share_of_lists;
   return fmt::format(
       "not enough memory for soft shadows, {} MB are allowed and points that are solved together need at "
       "least {} MB; expected a larger bound (--memory soft:MB)",
-      mb(most), mb(all + (std::size_t{1} << 20) - 1));
+      mb(most), mb(least + (std::size_t{1} << 20) - 1));
 }
 
 }  // namespace
@@ -76,7 +69,7 @@ struct SoftShadowTracer::State {
   soft::PointGrouper grouper;
   soft::PointGroups groups;
   soft::ShaftCuller culler;
-  soft::MemoryPool pool;
+  soft::MemoryBound memory;
   std::optional<std::size_t> memory_bytes;  ///< of the workers
   std::vector<Worker> workers;
   soft::SoftSampler sampler;
@@ -85,10 +78,6 @@ struct SoftShadowTracer::State {
   std::vector<float> errors;
   std::vector<soft::SampledGroup> sampled;  ///< of all threads
   std::vector<std::uint32_t> left;          ///< groups that sampling leaves
-  std::vector<Again> again;                 ///< by group: of these, and of those put aside
-  std::vector<std::uint32_t> chosen;        ///< groups that are solved again
-  bool one_by_one = false;                  ///< groups wait for each other, and each has all memory
-  std::size_t needed = 0;                   ///< by the most of them for which even that is not enough
   std::string refusal;
   SoftStats stats;
   FrameTimings timings;
@@ -98,16 +87,11 @@ struct SoftShadowTracer::State {
   void solve_family(const soft::SoftFrame& frame, std::span<const soft::GroupDecision> family,
                     Worker& worker);
   void sort_out(const soft::SoftFrame& frame, const soft::GroupDecision& decision, Worker& worker);
-  void solve_mixed(const soft::SoftFrame& frame, Again how, Worker& worker);
-  void settle(bool solved, std::span<const soft::PointGroup* const> of, std::vector<std::uint32_t>& aside,
-              Worker& worker);
-  bool solve_again(const soft::SoftFrame& frame, const TriangleView& triangles, const AreaLight& light);
-  bool solve_aside(const soft::SoftFrame& frame, const TriangleView& triangles, const AreaLight& light);
+  void solve_mixed(const soft::SoftFrame& frame, Worker& worker);
+  bool refused(const SoftShadowConfig& config);
   bool sample(const soft::SoftFrame& frame, const AreaLight& light);
   bool solve_left(const soft::SoftFrame& frame, const TriangleView& triangles, const AreaLight& light);
-  double threads_at_work() const {
-    return one_by_one || workers.empty() ? 1 : static_cast<double>(workers.size());
-  }
+  double threads_at_work() const { return workers.empty() ? 1 : static_cast<double>(workers.size()); }
   void gather();
   void count_shafts();
   bool trace(const VisiblePoints& seen, std::span<const glm::vec3> normals, const TriangleView& triangles,
@@ -121,17 +105,14 @@ void SoftShadowTracer::State::prepare(const SoftShadowConfig& config) {
     workers.resize(static_cast<std::size_t>(thread_count()));
     level = config.simd;
     memory_bytes = config.memory_bytes;
-    if (memory_bytes) pool.set_most(*memory_bytes - *memory_bytes / soft::share_of_lists);
   }
-  needed = 0;
+  memory.begin(config.memory_bytes, workers.size());
   refusal.clear();
   for (Worker& worker : workers) {
-    if (!worker.solver)
-      worker.solver = std::make_unique<soft::GroupSolver>(level, makers, memory_bytes ? &pool : nullptr);
+    if (!worker.solver) worker.solver = std::make_unique<soft::GroupSolver>(level, makers, &memory);
     worker.solver->stats = {};
     worker.solver->times = {};
     worker.sampled.clear();
-    worker.aside.clear(), worker.family_aside.clear();
   }
   stats = {};
   timings = {};
@@ -157,7 +138,7 @@ void SoftShadowTracer::State::solve_family(const soft::SoftFrame& frame,
   const std::size_t first_sampled = worker.sampled.size();
   for (const soft::GroupDecision& decision : family) sort_out(frame, decision, worker);
   if (!worker.lit.empty()) worker.solver->solve_lit(frame, worker.lit);
-  if (!worker.mixed.empty()) solve_mixed(frame, Again::yes, worker);
+  if (!worker.mixed.empty()) solve_mixed(frame, worker);
   if (worker.sampled.size() == first_sampled) return;
   worker.lit.clear();
   for (std::size_t i = first_sampled; i < worker.sampled.size(); ++i)
@@ -193,7 +174,7 @@ void SoftShadowTracer::State::sort_out(const soft::SoftFrame& frame, const soft:
   }
 }
 
-void SoftShadowTracer::State::solve_mixed(const soft::SoftFrame& frame, Again how, Worker& worker) {
+void SoftShadowTracer::State::solve_mixed(const soft::SoftFrame& frame, Worker& worker) {
   const std::size_t count = worker.mixed.size();
   if (worker.receivers.size() < count + 1) worker.receivers.resize(count + 1);
   std::size_t candidates = 0;
@@ -206,27 +187,17 @@ void SoftShadowTracer::State::solve_mixed(const soft::SoftFrame& frame, Again ho
   }
   const bool is_dense =
       frame.config.solver == SoftSolver::automatic && count > 1 && candidates > many_candidates * count;
-  if (how == Again::yes ? is_dense : how == Again::together) {
+  if (is_dense) {
     const soft::GroupFrame around = soft::frame_of(worker.mixed, groups, worker.receivers[count]);
-    const bool solved = worker.solver->solve_together(frame, around, worker.tasks);
-    return settle(solved, worker.mixed, worker.family_aside, worker);
+    return worker.solver->solve_together(frame, around, worker.tasks);
   }
-  for (std::size_t i = 0; i < count; ++i)
-    settle(worker.solver->solve(frame, worker.tasks[i]), {&worker.mixed[i], 1}, worker.aside, worker);
+  for (const soft::GroupTask& task : worker.tasks) worker.solver->solve(frame, task);
 }
 
-/// Puts groups aside for which there was no memory. Of the memory, a thread keeps no more than its part of a
-/// quarter, so that large groups of others find room.
-void SoftShadowTracer::State::settle(bool solved, std::span<const soft::PointGroup* const> of,
-                                     std::vector<std::uint32_t>& aside, Worker& worker) {
-  if (!memory_bytes) return;
-  const soft::MemoryHold& memory = worker.solver->memory();
-  if (!solved && one_by_one) needed = std::max(needed, memory.group_bytes());
-  if (!solved && !one_by_one) {
-    for (const soft::PointGroup* group : of)
-      aside.push_back(static_cast<std::uint32_t>(group - groups.groups.data()));
-  }
-  if (one_by_one || memory.bytes() > pool.most() / (4 * workers.size())) worker.solver->release();
+bool SoftShadowTracer::State::refused(const SoftShadowConfig& config) {
+  if (memory.least_bound() == 0) return false;
+  refusal = refusal_of(memory.least_bound(), *config.memory_bytes);
+  return true;
 }
 
 bool SoftShadowTracer::State::sample(const soft::SoftFrame& frame, const AreaLight& light) {
@@ -240,63 +211,28 @@ bool SoftShadowTracer::State::sample(const soft::SoftFrame& frame, const AreaLig
   return done;
 }
 
-/// Solves groups that sampling left alone, exactly.
+/// Solves groups that sampling left alone, exactly; their candidates are found once more.
 bool SoftShadowTracer::State::solve_left(const soft::SoftFrame& frame, const TriangleView& triangles,
                                          const AreaLight& light) {
   if (left.empty()) return true;
-  again.assign(groups.groups.size(), Again::no);
-  for (const std::uint32_t group : left) again[group] = Again::yes;
-  return solve_again(frame, triangles, light) && solve_aside(frame, triangles, light);
-}
-
-/// Solves groups that found no memory beside those of other threads: one (or one family) after the other, so
-/// each has all of it. False if that is not enough, or for a stop.
-bool SoftShadowTracer::State::solve_aside(const soft::SoftFrame& frame, const TriangleView& triangles,
-                                          const AreaLight& light) {
-  if (std::all_of(workers.begin(), workers.end(),
-                  [](const Worker& w) { return w.aside.empty() && w.family_aside.empty(); }))
-    return true;
-  gather();
-  again.assign(groups.groups.size(), Again::no);
-  for (Worker& worker : workers) {
-    for (const std::uint32_t group : worker.aside) again[group] = Again::alone;
-    for (const std::uint32_t group : worker.family_aside) again[group] = Again::together;
-    worker.aside.clear(), worker.family_aside.clear();
-    worker.solver->release();
-  }
-  one_by_one = true;
-  bool done = false;
-  with_threads(1, [&] { done = solve_again(frame, triangles, light); });
-  gather();
-  one_by_one = false;
-  if (done && needed > 0) refusal = refusal_of(needed, *memory_bytes);
-  return done && needed == 0;
-}
-
-/// Solves the groups of `again`, whose candidates are found once more.
-bool SoftShadowTracer::State::solve_again(const soft::SoftFrame& frame, const TriangleView& triangles,
-                                          const AreaLight& light) {
+  std::sort(left.begin(), left.end());
   SoftShadowConfig config = frame.config;
   config.error_255 = 0;  // how to solve them is decided: nothing needs to be counted
-  chosen.clear();
-  for (std::uint32_t i = 0; i < again.size(); ++i)
-    if (again[i] != Again::no) chosen.push_back(i);
   const bool done = culler.for_each_family(
       groups, triangles, light, config, frame.stop,
       [&](std::span<const soft::GroupDecision> family, int thread) {
         Worker& worker = workers[static_cast<std::size_t>(thread)];
         worker.mixed.clear(), worker.candidates.clear();
-        Again how = Again::no;  // one for all of a family that are solved again
         for (const soft::GroupDecision& decision : family) {
-          how = again[static_cast<std::size_t>(decision.group - groups.groups.data())];
           worker.mixed.push_back(decision.group);
           worker.candidates.push_back(decision.candidates);
         }
-        solve_mixed(frame, how, worker);
+        solve_mixed(frame, worker);
       },
-      chosen);
+      left);
   count_shafts();
-  return done;
+  gather();
+  return done && !refused(config);
 }
 
 /// Adds up the threads' counts since the last call.
@@ -351,20 +287,19 @@ bool SoftShadowTracer::State::trace(const VisiblePoints& seen, std::span<const g
 
   const soft::LightFrame frame_of_light = soft::light_frame(light);
   const soft::SoftFrame frame{points, normals, triangles, frame_of_light, config, out, classes, stop};
-  bool done = culler.for_each_family(groups, triangles, light, config, stop,
-                                     [&](std::span<const soft::GroupDecision> family, int thread) {
-                                       solve_family(frame, family, workers[static_cast<std::size_t>(thread)]);
-                                     });
+  const bool done = culler.for_each_family(
+      groups, triangles, light, config, stop, [&](std::span<const soft::GroupDecision> family, int thread) {
+        solve_family(frame, family, workers[static_cast<std::size_t>(thread)]);
+      });
   count_shafts();
-  done = done && solve_aside(frame, triangles, light);
   gather();
   stats.groups = groups.groups.size();
   errors.clear();
-  if (!done || !(config.error_255 > 0)) return done;
+  if (!done || refused(config)) return false;
+  if (!(config.error_255 > 0)) return true;
   errors.assign(points.triangles.size(), 0.0f);
   if (!sample(frame, light)) return false;
   if (!solve_left(frame, triangles, light)) return false;
-  if (!left.empty()) gather();
   if (stats.points_penumbra > 0)
     stats.error_255 = std::sqrt(sampler.square_error() / static_cast<double>(stats.points_penumbra));
   return true;

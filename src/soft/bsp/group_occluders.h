@@ -55,11 +55,6 @@ struct GroupOccluders {
   std::vector<MovingLine> lines;
   std::vector<EdgePlane> planes;  ///< one for each line
 
-  /// What it holds for so many candidates: three edges and the plane of each, and its place.
-  static constexpr std::size_t bytes_for(std::size_t candidates) {
-    return candidates *
-           (most_lines * (sizeof(MovingLine) + sizeof(EdgePlane)) + sizeof(Occluder) + sizeof(std::uint32_t));
-  }
   static constexpr std::size_t most_lines = 4;  ///< of an occluder
 };
 

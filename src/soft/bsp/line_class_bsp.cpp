@@ -18,15 +18,13 @@ constexpr std::size_t bytes_an_occluder = 3 * sizeof(dvec3) + sizeof(std::uint32
 }  // namespace
 
 bool LineClassBsp::reset(const GroupOccluders& occluders, const TriangleView& triangles,
-                         const GroupFrame& group, OccluderChoice choice, std::size_t largest_bytes,
-                         MemoryHold* memory) {
+                         const GroupFrame& group, OccluderChoice choice, std::size_t largest_bytes) {
   nodes_.clear();
   waiting_.clear();
   lists_.clear();
   corners_.clear();
   root_ = visible_leaf;
   largest_bytes_ = largest_bytes;
-  memory_ = memory;
   if (!may_take(sizeof(Range) + occluders.occluders.size() * bytes_an_occluder)) return false;
   occluders_ = occluders.occluders;
   planes_ = occluders.planes;

@@ -11,7 +11,6 @@
 #include <tenebra/soft_config.h>
 #include <tenebra/visible_points.h>
 #include "soft/bsp/group_occluders.h"
-#include "soft/memory/memory_hold.h"
 
 namespace tenebra::soft {
 
@@ -32,10 +31,9 @@ struct BspNode {
 class LineClassBsp {
 public:
   /// A tree of one undefined leaf that all definite occluders wait in. They must outlive it. It takes at most
-  /// `largest_bytes`, and asks `memory` for them (null: no bound): false, and no tree, if its occluders alone
-  /// take more.
+  /// `largest_bytes`: false, and no tree, if its occluders alone take more.
   bool reset(const GroupOccluders& occluders, const TriangleView& triangles, const GroupFrame& group,
-             OccluderChoice choice, std::size_t largest_bytes, MemoryHold* memory);
+             OccluderChoice choice, std::size_t largest_bytes);
 
   BspChild root() const { return root_; }
   const BspNode* nodes() const { return nodes_.data(); }
@@ -45,7 +43,7 @@ public:
 
   /// Replaces the undefined leaf at `child` (the root: parent < 0) by the classes of one of its occluders and
   /// inserts the others below (Algorithm 1, lines 31 to 35). Returns the new child. If the tree might outgrow
-  /// its bound, or there is no memory, nothing changes and the undefined leaf is returned.
+  /// its bound, nothing changes and the undefined leaf is returned.
   BspChild grow(std::int32_t parent, int side);
 
   std::size_t node_count() const { return nodes_.size(); }
@@ -60,9 +58,7 @@ private:
   void insert_below(std::uint32_t occluder, const Occluder& merged);
   std::uint32_t pick(Range waiting);
   BspChild add_leaf(std::span<const std::uint32_t> occluders);
-  bool may_take(std::size_t bytes) const {
-    return bytes <= largest_bytes_ && (memory_ == nullptr || memory_->tree(bytes));
-  }
+  bool may_take(std::size_t bytes) const { return bytes <= largest_bytes_; }
 
   std::vector<BspNode> nodes_;
   std::vector<std::uint32_t> waiting_;  ///< occluders of all pending lists, one after another
@@ -76,7 +72,6 @@ private:
   BspChild root_ = visible_leaf;
   OccluderChoice choice_ = OccluderChoice::largest;
   std::size_t largest_bytes_ = 0;
-  MemoryHold* memory_ = nullptr;
   std::uint32_t random_ = 1;
 };
 

@@ -53,11 +53,6 @@ public:
     if (has_many()) bounds_.find(cold_);
   }
 
-  /// What it holds for so many candidates.
-  static std::size_t bytes_for(std::size_t candidates) {
-    return Occluders::bytes_for(candidates) + candidates * sizeof(std::uint32_t);
-  }
-
   /// The next queries are about `at`, which must stay where it is.
   void move_to(typename Sight::At& at) {
     range_ = range_of(at);

@@ -74,11 +74,6 @@ public:
     return met != 0 && cut_out(shadow, met, part, left == 0 ? out : rest);
   }
 
-  static std::size_t bytes_for(std::size_t occluders) {
-    return OccluderList<float, PointRange>::bytes_for(occluders) +
-           occluders * (sizeof(Place) + sizeof(PacketShadow));
-  }
-
 private:
   /// Bits of the lanes where the boxes around fragment and shadow meet.
   static SIMD_INLINE std::uint32_t meeting(const PacketReach& reach, const PacketShadow& shadow) {

@@ -57,9 +57,4 @@ std::span<const std::uint32_t> CandidateOrder::sorted(const GroupCandidates& can
   return order_;
 }
 
-std::size_t CandidateOrder::bytes_for(std::size_t places) {
-  const std::size_t ranks = 2 * places;  // that grow by push_back()
-  return (ranks + rank_count(places) + 1 + places) * sizeof(std::uint32_t);
-}
-
 }  // namespace tenebra::soft

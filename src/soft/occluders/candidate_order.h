@@ -19,9 +19,6 @@ public:
   std::span<const std::uint32_t> sorted(const GroupCandidates& candidates,
                                         std::span<const std::uint32_t> places);
 
-  /// What it holds after that, with so many places.
-  static std::size_t bytes_for(std::size_t places);
-
 private:
   std::vector<std::uint32_t> ranks_, ends_, order_;
 };

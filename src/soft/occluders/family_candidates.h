@@ -32,12 +32,6 @@ public:
     for (const std::uint32_t place : decided_) all.all[place].sign = 0;
   }
 
-  /// What it holds, at most: twice what is used, as vectors grow.
-  std::size_t bytes() const {
-    const std::size_t lists = 4 * ids_.size() + members_.size() + doubtful_.size();  // the last: decided_
-    return 2 * (lists * sizeof(std::uint32_t) + (members_.size() + doubtful_.size()) * sizeof(Member));
-  }
-
 private:
   struct Member {
     std::uint32_t place;

@@ -53,12 +53,6 @@ public:
   }
   std::size_t count() const { return count_; }
   std::size_t block_count() const { return (count_ + 15) / 16; }
-  /// What it holds with so many occluders, and a list of all of them that grew to twice their number.
-  static std::size_t bytes_for(std::size_t occluders) {
-    const std::size_t blocks = (occluders + 15) / 16;
-    return blocks * (sizeof(OccluderBlock) + sizeof(BlockBoxes<T>) + sizeof(std::uint32_t)) +
-           2 * occluders * (4 * sizeof(T) + sizeof(LaneIndex<T>));
-  }
   /// Its lanes may be changed before move_to(), not after it.
   OccluderBlock& block(std::size_t b) { return blocks_[b]; }
 

@@ -98,10 +98,6 @@ public:
     return subtract_shadow(part, lines, sides, left == 0 ? out : rest);
   }
 
-  static std::size_t bytes_for(std::size_t occluders) {
-    return OccluderList<T, GroupPoint>::bytes_for(occluders) + (occluders + 15) / 16 * sizeof(BlockLines<T>);
-  }
-
 private:
   /// Up to this many, each is tested once against a part, and not against all of its fragments (measured).
   static constexpr int few_left = 12;

@@ -7,7 +7,7 @@
 #include "base/stopwatch.h"
 #include "parallel/parallel.h"
 #include "soft/groups/receivers.h"
-#include "soft/memory/memory_hold.h"
+#include "soft/memory/memory_bound.h"
 #include "soft/shafts/shaft_kernels.h"
 
 namespace tenebra::soft {

@@ -46,11 +46,6 @@ struct GroupSilhouette {
   std::vector<std::uint32_t> kept;  ///< scratch of drop_beside_light()
 
   bool empty() const { return edges.empty(); }
-  /// Twice what is used: vectors that grow by push_back() hold no more.
-  std::size_t bytes() const {
-    return 2 * (edges.size() * (sizeof(SilhouetteEdge) + sizeof(std::uint32_t)) +
-                sometimes.size() * sizeof(SometimesBlocker) + uses.size() * sizeof(SilhouetteUse));
-  }
   void clear() {
     edges.clear();
     sometimes.clear();
@@ -71,11 +66,6 @@ public:
   /// use if `stop` was requested.
   void find(const LightFrame& light, const TriangleView& triangles, const GroupCandidates& candidates,
             GroupSilhouette& out, std::vector<std::uint32_t>& rest, const StopFlag* stop = nullptr);
-
-  /// What the table of the last call holds, at most.
-  std::size_t bytes() const {
-    return (table_.size() + edges_.size()) * sizeof(std::uint32_t) + 2 * edges_.size() * sizeof(Edge);
-  }
 
 private:
   struct Edge {

@@ -32,13 +32,6 @@ public:
     for (std::size_t i = 0; i < 16 * moving_.size(); ++i) fill(i);
   }
 
-  /// What it holds for so many edges, with the edges around the light and those that cross it, which may grow
-  /// to twice their number.
-  static std::size_t bytes_for(std::size_t edges) {
-    return (edges + 15) / 16 * (sizeof(MovingBlock) + sizeof(Block)) +
-           2 * edges * 2 * sizeof(SilhouetteLanes<T>) / 16;
-  }
-
   /// The next queries are about this point.
   HWY_NOINLINE void move_to(const GroupPoint& at) {
     slack_ = static_cast<T>(0x1p-32 * (4 + 2 * std::abs(at.in_light.y)));

@@ -19,19 +19,9 @@ HWY_BEFORE_NAMESPACE();
 namespace tenebra::soft::HWY_NAMESPACE {
 using namespace simd::HWY_NAMESPACE;
 
-/// No tree takes more than this, whatever SoftShadowConfig::tree_bytes says: nodes and pending lists have
-/// indices of 31 bits.
-inline constexpr std::size_t largest_tree_bytes = std::size_t{1} << 30;
-
 template <class T>
 class BspSolver final : public Solver {
 public:
-  /// If the tree is dropped, all candidates are clipped.
-  std::size_t bytes_for(const PreparedGroup& group) const override {
-    const std::size_t count = group.candidates.all.size();
-    return GroupOccluders::bytes_for(count) + ClipSolver<OnePoint<T>>::bytes_for(count) +
-           CandidateOrder::bytes_for(count) + count * sizeof(std::uint32_t);
-  }
   void begin(const SoftFrame& frame, const PreparedGroup& group) override {
     receiver_.forget();
     is_counted_ = false;
@@ -44,7 +34,7 @@ public:
              PixelWriter& writer) override {
     if (!use_tree_) change_solver(writer);
     for (const std::uint32_t pixel : pixels) {
-      if (stop_requested(frame.stop) || was_refused(group)) break;
+      if (stop_requested(frame.stop)) break;
       solve_point(frame, group, pixel, writer);
       if (!frame.config.keep_trees) start_anew(frame, group, writer);
     }
@@ -53,14 +43,8 @@ public:
   }
 
 private:
-  static bool was_refused(const PreparedGroup& group) {
-    return group.memory != nullptr && group.memory->refused();
-  }
   void start_tree(const SoftFrame& frame, const PreparedGroup& group) {
-    std::size_t largest = std::min(frame.config.tree_bytes, largest_tree_bytes);
-    if (group.memory != nullptr) largest = std::min(largest, group.memory->largest_tree());
-    use_tree_ =
-        bsp_.reset(occluders_, frame.triangles, group.frame, frame.config.choice, largest, group.memory);
+    use_tree_ = bsp_.reset(occluders_, frame.triangles, group.frame, frame.config.choice, group.tree_bytes);
   }
   /// From here on points are clipped; the group is counted once.
   void change_solver(PixelWriter& writer) {

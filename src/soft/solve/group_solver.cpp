@@ -29,33 +29,40 @@ SoftClass class_of(const SoftFrame& frame, const PreparedGroup& group) {
 
 }  // namespace
 
-GroupSolver::GroupSolver(SimdLevel level, const SolverMakers& makers, MemoryPool* pool)
-    : level_(level), makers_(makers), memory_(pool), preparer_(level), lit_(make_lit_solver(level)) {}
+GroupSolver::GroupSolver(SimdLevel level, const SolverMakers& makers, MemoryBound* memory)
+    : level_(level), makers_(makers), memory_(memory), preparer_(level), lit_(make_lit_solver(level)) {}
 
 void GroupSolver::release() {
   preparer_ = GroupPreparer(level_);
   for (std::unique_ptr<Solver>* solver : {&points_, &packets_, &bsp_}) solver->reset();
-  memory_.release();
 }
 
-bool GroupSolver::solve(const SoftFrame& frame, const GroupTask& task) {
-  const SoftStats before = stats;
-  memory_.begin_group();
+template <class Solve>
+void GroupSolver::within_memory(std::size_t bytes, const Solve& solve) {
+  if (memory_ == nullptr) return solve();
+  memory_->run(bytes, solve, [this] { release(); });
+}
+
+void GroupSolver::solve(const SoftFrame& frame, const GroupTask& task) {
+  const std::size_t candidates = bytes_of_candidates(frame.config.solver, task.candidates.size());
+  std::size_t tree = 0;
+  if (frame.config.solver == SoftSolver::bsp) tree = std::min(frame.config.tree_bytes, largest_tree_bytes);
+  if (memory_ != nullptr) tree = std::min(tree, largest_tree(*memory_, candidates));
+  within_memory(candidates + bytes_of_tree * tree, [&] { solve_group(frame, task, tree); });
+}
+
+void GroupSolver::solve_group(const SoftFrame& frame, const GroupTask& task, std::size_t tree_bytes) {
   base::Stopwatch watch;
-  if (memory_.add_candidates(task.candidates.size() * sizeof(Candidate)))
-    solve_prepared(frame, preparer_.prepare(frame, task), task.pixels, watch);
-  if (memory_.refused()) stats = before;
-  return !memory_.refused();
+  PreparedGroup group = preparer_.prepare(frame, task);
+  group.tree_bytes = tree_bytes;
+  solve_prepared(frame, group, task.pixels, watch);
 }
 
-bool GroupSolver::solve_together(const SoftFrame& frame, const GroupFrame& around,
+void GroupSolver::solve_together(const SoftFrame& frame, const GroupFrame& around,
                                  std::span<const GroupTask> tasks) {
-  const SoftStats before = stats;
-  memory_.begin_group();
-  if (memory_.add_candidates(preparer_.begin_family(tasks) * sizeof(Candidate)))
-    solve_family(frame, around, tasks);
-  if (memory_.refused()) stats = before;
-  return !memory_.refused();
+  const std::size_t candidates = preparer_.begin_family(tasks);
+  within_memory(bytes_of_candidates(frame.config.solver, candidates),
+                [&] { solve_family(frame, around, tasks); });
 }
 
 void GroupSolver::solve_family(const SoftFrame& frame, const GroupFrame& around,
@@ -63,13 +70,11 @@ void GroupSolver::solve_family(const SoftFrame& frame, const GroupFrame& around,
   base::Stopwatch watch;
   const bool together = preparer_.prepare_family(frame, around);
   times.init_ms += watch.lap_ms();
-  const std::size_t of_all = memory_.group_bytes();
-  for (std::size_t k = 0; k < tasks.size() && !stop_requested(frame.stop) && !memory_.refused(); ++k) {
+  for (std::size_t k = 0; k < tasks.size() && !stop_requested(frame.stop); ++k) {
     if (!together) {
-      solve(frame, tasks[k]);
+      solve_group(frame, tasks[k], 0);
       continue;
     }
-    memory_.back_to(of_all);
     solve_prepared(frame, preparer_.choose(k, tasks[k], frame.stop), tasks[k].pixels, watch);
     preparer_.restore();
   }
@@ -95,12 +100,10 @@ void GroupSolver::expect(const SoftFrame& frame, std::span<const std::uint32_t> 
 }
 
 /// `watch` was started with the preparation.
-void GroupSolver::solve_prepared(const SoftFrame& frame, PreparedGroup group,
+void GroupSolver::solve_prepared(const SoftFrame& frame, const PreparedGroup& group,
                                  std::span<const std::uint32_t> pixels, base::Stopwatch& watch) {
   if (stop_requested(frame.stop)) return;  // it may not be whole
   Solver& solver = solver_of(frame, group);
-  if (!memory_.add_candidates(preparer_.bytes() + solver.bytes_for(group))) return;
-  group.memory = &memory_;
   solver.begin(frame, group);
   times.init_ms += watch.lap_ms();
   PixelWriter writer(frame, class_of(frame, group), stats);

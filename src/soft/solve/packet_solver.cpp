@@ -17,9 +17,6 @@ class PacketGroupSolver final : public Solver {
 public:
   explicit PacketGroupSolver(std::unique_ptr<Solver> alone) : alone_(std::move(alone)) {}
 
-  std::size_t bytes_for(const PreparedGroup& group) const override {
-    return ClipSolver<ManyPoints>::bytes_for(group.clipped.size()) + alone_->bytes_for(group);
-  }
   void begin(const SoftFrame& frame, const PreparedGroup& group) override {
     receiver_.forget();
     packet_.reset(group.candidates, group.clipped, frame.stop);

@@ -19,10 +19,6 @@ using namespace simd::HWY_NAMESPACE;
 template <class T>
 class PointSolver final : public Solver {
 public:
-  std::size_t bytes_for(const PreparedGroup& group) const override {
-    return ClipSolver<OnePoint<T>>::bytes_for(group.clipped.size()) +
-           SilhouetteSolver<T>::bytes_for(group.silhouette.edges.size());
-  }
   void begin(const SoftFrame& frame, const PreparedGroup& group) override {
     receiver_.forget();
     clip_.reset(group.candidates, group.clipped, frame.stop);

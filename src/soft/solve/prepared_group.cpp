@@ -25,7 +25,6 @@ bool GroupPreparer::prepare_family(const SoftFrame& frame, const GroupFrame& aro
   const auto clipped = sort_out(frame, around, family_.triangles());
   if (!silhouette_.empty() || stop_requested(frame.stop)) return false;
   family_.make_ready(candidates_, clipped);
-  bytes_ += family_.bytes();
   return true;
 }
 
@@ -39,11 +38,9 @@ std::span<const std::uint32_t> GroupPreparer::sort_out(const SoftFrame& frame, c
   silhouette_.clear();
   candidates_.all.reserve(triangles.size());
   find_candidates_(frame.light, frame.triangles, group, triangles, candidates_, frame.stop);
-  bytes_ = grown_bytes(candidates_.heights);
   if (frame.config.solver == SoftSolver::bsp || stop_requested(frame.stop)) return {};
   if (frame.config.solver == SoftSolver::automatic) {
     finder_.find(frame.light, frame.triangles, candidates_, silhouette_, rest_, frame.stop);
-    bytes_ += finder_.bytes() + silhouette_.bytes();
     if (stop_requested(frame.stop)) return {};
     drop_beside_light(group, candidates_.axes, silhouette_);
     pair_triangles(group, candidates_, rest_);
@@ -51,9 +48,7 @@ std::span<const std::uint32_t> GroupPreparer::sort_out(const SoftFrame& frame, c
     take_all(candidates_, rest_);
   }
   if (stop_requested(frame.stop)) return {};
-  const std::span<const std::uint32_t> sorted = order_.sorted(candidates_, rest_);
-  bytes_ += grown_bytes(rest_) + CandidateOrder::bytes_for(rest_.size());
-  return sorted;
+  return order_.sorted(candidates_, rest_);
 }
 
 }  // namespace tenebra::soft

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "soft/memory/memory_hold.h"
 #include "soft/occluders/candidate_order.h"
 #include "soft/occluders/family_candidates.h"
 #include "soft/silhouette/group_silhouette.h"
@@ -20,7 +19,7 @@ struct PreparedGroup {
   const GroupCandidates& candidates;
   const GroupSilhouette& silhouette;       ///< empty where no meshes are worth one
   std::span<const std::uint32_t> clipped;  ///< places of the candidates that are clipped, largest first
-  MemoryHold* memory = nullptr;            ///< that its solver asks for room; null: no bound
+  std::size_t tree_bytes = 0;              ///< what its BSP may take
 };
 
 /// Prepares one group after the other in buffers of its own.
@@ -41,9 +40,6 @@ public:
   PreparedGroup choose(std::size_t k, const GroupTask& task, const StopFlag* stop);
   void restore() { family_.restore(candidates_); }
 
-  /// What the last preparation holds besides the candidates themselves.
-  std::size_t bytes() const { return bytes_; }
-
 private:
   std::span<const std::uint32_t> sort_out(const SoftFrame& frame, const GroupFrame& group,
                                           std::span<const std::uint32_t> triangles);
@@ -55,14 +51,11 @@ private:
   std::vector<std::uint32_t> rest_;  ///< places of the candidates that the silhouette leaves
   CandidateOrder order_;
   FamilyCandidates family_;
-  std::size_t bytes_ = 0;
 };
 
-/// What a vector holds that was filled by push_back() alone, at most.
-template <class T>
-std::size_t grown_bytes(const std::vector<T>& list) {
-  return 2 * list.size() * sizeof(T);
-}
+/// No tree takes more than this, whatever SoftShadowConfig::tree_bytes says: nodes and pending lists have
+/// indices of 31 bits.
+inline constexpr std::size_t largest_tree_bytes = std::size_t{1} << 30;
 
 /// The places of all candidates.
 void take_all(const GroupCandidates& candidates, std::vector<std::uint32_t>& places);

@@ -15,12 +15,9 @@ class Solver {
 public:
   virtual ~Solver() = default;
 
-  /// What it holds for a group besides its tree, if it has one: a function of the group alone.
-  virtual std::size_t bytes_for(const PreparedGroup& group) const = 0;
   /// Takes up a group, perhaps not all of it if frame.stop was requested: then solve() answers nothing.
   virtual void begin(const SoftFrame& frame, const PreparedGroup& group) = 0;
-  /// Answers pixels of that group; some of them if frame.stop was requested, or if group.memory refused its
-  /// tree room.
+  /// Answers pixels of that group; some of them if frame.stop was requested.
   virtual void solve(const SoftFrame& frame, const PreparedGroup& group,
                      std::span<const std::uint32_t> pixels, PixelWriter& writer) = 0;
 };

@@ -34,9 +34,9 @@ TEST(SoftMemory, HoldsForTheHeap) {
     const Held refused = measured(c, config);  // what is held besides: masks, groups, blocks for the shafts
     EXPECT_FALSE(refused.done);
     const Held standard = measured(c, {.solver = solver});
-    // Of auto, the least is just enough: groups are put aside.
+    // Of auto, the least is just enough: groups wait for each other.
     for (const std::size_t mb : solver == SoftSolver::bsp ? std::vector<std::size_t>{40, 80, 160}
-                                                          : std::vector<std::size_t>{18, 40}) {
+                                                          : std::vector<std::size_t>{30, 40}) {
       config.memory_bytes = mb * 1000000;
       const Held run = measured(c, config);
       EXPECT_TRUE(run.done) << mb;
