@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   tenebra::bench::add_bake_command(program, run);
   tenebra::bench::add_trade_command(program, run);
   tenebra::bench::add_paper_command(program, run);
+  tenebra::bench::add_promise_command(program, run);
   tenebra::bench::add_frame_command(program, run);
   tenebra::bench::add_picture_command(program, run);
   tenebra::bench::add_hash_command(program, run);

@@ -30,6 +30,7 @@ void add_ao_command(CLI::App& program, Run& run);
 void add_bake_command(CLI::App& program, Run& run);
 void add_trade_command(CLI::App& program, Run& run);
 void add_paper_command(CLI::App& program, Run& run);
+void add_promise_command(CLI::App& program, Run& run);
 void add_frame_command(CLI::App& program, Run& run);
 void add_picture_command(CLI::App& program, Run& run);
 void add_hash_command(CLI::App& program, Run& run);

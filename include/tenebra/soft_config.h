@@ -35,10 +35,11 @@ struct SoftShadowConfig {
   SoftSolver solver = SoftSolver::automatic;            ///< the method; all give the same answer
   SoftGrouping grouping = SoftGrouping::neighbourhood;  ///< of points that share occluders
   OccluderChoice choice = OccluderChoice::largest;      ///< of the BSP
-  /// 1/255 of white, RMS over the penumbra, white being the 99.9th percentile of the frame's irradiance; 0:
-  /// exact. Above 0, groups of points that many triangles may shadow are sampled at places on the light, by
-  /// exact hard shadows: at as many as it takes until the estimated error (SoftStats::error_255) is no more
-  /// than this. Points that are proved to see all or none of the light stay exact.
+  /// 1/255 of white, RMS over the penumbra, white being the 99.9th percentile of the light that the frame
+  /// shows (SoftShadowTracer::trace, `shown`); 0: exact. Above 0, groups of points that many triangles may
+  /// shadow are sampled at places on the light, by exact hard shadows: at as many as it takes until the
+  /// estimated error (SoftStats::error_255) is no more than this. Points that are proved to see all or none
+  /// of the light stay exact.
   double error_255 = 0;
   bool keep_trees = true;  ///< false: each point starts a new BSP (the paper's "modified version", Figure 8)
   SimdLevel simd = SimdLevel::automatic;  ///< which vectors; the bits are the same

@@ -45,10 +45,13 @@ public:
   /// (lights of at least 1e-10 of their distance). With config.error_255 the irradiance of dense penumbrae
   /// may err by that, as estimated (see there). The bits are the same for any number of threads.
   ///
+  /// `shown`: what a unit of irradiance makes of light in the picture at each point (fall-off, range, cone);
+  /// errors, and the white that they are parts of, are those of irradiance times this. Empty: 1 everywhere.
+  ///
   /// Returns false, with `out` unspecified, if `stop` was requested before the end, or for refusal().
   bool trace(const VisiblePoints& points, std::span<const glm::vec3> normals, const TriangleView& triangles,
              const AreaLight& light, const SoftShadowConfig& config, SoftMask& out,
-             const StopFlag* stop = nullptr);
+             const StopFlag* stop = nullptr, std::span<const float> shown = {});
 
   /// Why the last call returned false although no stop was requested, in a sentence; empty if it did not.
   /// Points that are solved together needed more than SoftShadowConfig::memory_bytes.

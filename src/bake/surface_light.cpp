@@ -52,26 +52,6 @@ void place(const FrameGeometry& geometry, const Sample& sample, std::size_t i, P
   out.normals[i] = length > 1e-6 ? glm::vec3(normal / length) : out.faces[i];
 }
 
-/// Fading with distance and angle, by the formula of shade/diffuse-inl.h.
-double fade_of(const shade::LightTerms& terms, const dvec3& to_light, double distance) {
-  constexpr double brightest = 1e30;
-  double fade = 1;
-  const double cosine = -glm::dot(dvec3(terms.direction), to_light);
-  if (terms.spot) {
-    const double cone =
-        std::clamp(cosine * static_cast<double>(terms.cone.x) + static_cast<double>(terms.cone.y), 0.0, 1.0);
-    fade = cone * cone;
-  }
-  if (terms.cosine_emitter) fade *= std::max(cosine, 0.0);
-  if (terms.range_m > 0) {
-    const double near = distance / static_cast<double>(terms.range_m);
-    fade *= std::clamp(1 - near * near * near * near, 0.0, 1.0);
-  }
-  if (terms.distance_power < 0) fade /= distance * distance;
-  if (terms.distance_power > 0) fade *= distance * distance;
-  return std::min(fade, brightest);
-}
-
 /// What a white diffuse surface shows of a light that nothing hides, per unit of its colour; `irradiance`
 /// that of its polygon, if it has one.
 double received(const shade::LightTerms& terms, const Places& places, std::size_t i, float irradiance) {
@@ -79,7 +59,7 @@ double received(const shade::LightTerms& terms, const Places& places, std::size_
   const double distance = glm::length(path);
   if (!terms.directional && !(distance > 0)) return 0;
   const dvec3 to_light = terms.directional ? -dvec3(terms.direction) : path / distance;
-  const double fade = terms.directional ? 1 : fade_of(terms, to_light, distance);
+  const double fade = terms.directional ? 1 : shade::fade_of(terms, to_light, distance);
   if (terms.by_irradiance) return fade * static_cast<double>(irradiance);
   if (!(glm::dot(dvec3(places.faces[i]), to_light) > 0)) return 0;
   return fade * std::max(glm::dot(dvec3(places.normals[i]), to_light), 0.0);

@@ -71,6 +71,7 @@ private:
   std::vector<std::uint8_t> casters_;
   SampleLight behind_;              // the other side of an area light
   LightMask behind_mask_;           // and what there is to look at
+  std::vector<float> shown_;        // of a light with an area: what the sampler weighs errors by
   bool tint_has_surfaces_ = false;  // of this frame
   bool groups_changed_ = false;     // in this frame: SoftStats::groups_changed
 };

@@ -4,11 +4,36 @@
 
 #include "base/fail.h"
 #include "base/stopwatch.h"
+#include "parallel/parallel.h"
 #include "render/lighter.h"
+#include "shade/light_terms.h"
 #include "soft/light/even_emission.h"
 
 namespace tenebra::render {
 namespace {
+
+/// What a unit of irradiance makes of light in the picture at each sample: fading as seen from the light's
+/// centre and, of lights that shine alike in every direction (soft::weigh_evenly), the cosine at the light's
+/// centre taken out again: theirs is at least the light's nearest and at most its farthest distance in place
+/// of that of the centre. Empty: the same everywhere.
+void shown_of_irradiance(const DrawnLight& light, const VisiblePoints& points, std::vector<float>& out) {
+  const shade::LightTerms terms = shade::light_terms(light, ViewRays{});
+  const bool even = light.back.has_value();
+  const bool fades = terms.spot || terms.range_m > 0 || terms.distance_power != 0;
+  out.clear();
+  if (terms.directional || !(even || fades)) return;
+  out.resize(points.triangles.size());
+  parallel::parallel_ranges(out.size(), 1 << 12, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      if (points.triangles[i] == no_triangle) continue;
+      const glm::dvec3 path = light.area->centre - points.positions[i];
+      const double distance = glm::length(path), height = std::abs(glm::dot(light.area->normal, path));
+      if (!(height > 0)) continue;
+      const double fade = fades ? shade::fade_of(terms, path / distance, distance) : 1;
+      out[i] = static_cast<float>(even ? fade * (distance / height) : fade);
+    }
+  });
+}
 
 /// Writes the light of the light's back where only that is seen.
 void add_back(const VisiblePoints& points, const AreaLight& front, const SampleLight& back, SampleLight& out,
@@ -47,10 +72,12 @@ Expected<void> Lighter::trace_visible_part(const Frame& frame, const DrawnLight&
   const bool by_points = settings.soft_points > 0;
   const TriangleView triangles = traced_triangles(frame, light);
   const HardShadowConfig of_points{.variant = settings.hard.variant, .simd = settings.hard.simd};
+  shown_.clear();
+  if (settings.soft.error_255 > 0) shown_of_irradiance(light, at.lit_at(), shown_);
   const bool done = by_points ? light_points_.trace(at.lit_at(), at.normals, triangles, *light.area,
                                                     settings.soft_points, of_points, out, frame.stop)
                               : soft_.trace(at.lit_at(), at.normals, triangles, *light.area, settings.soft,
-                                            out, frame.stop);
+                                            out, frame.stop, shown_);
   if (!done && !by_points && !soft_.refusal().empty())
     return base::fail(ErrorKind::memory, "{}", soft_.refusal());
   if (!done) return base::stopped();

@@ -70,4 +70,23 @@ LightTerms light_terms(const DrawnLight& drawn, const ViewRays& view) {
   return terms;
 }
 
+double fade_of(const LightTerms& terms, const glm::dvec3& to_light, double distance) {
+  constexpr double brightest = 1e30;
+  double fade = 1;
+  const double cosine = -glm::dot(glm::dvec3(terms.direction), to_light);
+  if (terms.spot) {
+    const double cone =
+        std::clamp(cosine * static_cast<double>(terms.cone.x) + static_cast<double>(terms.cone.y), 0.0, 1.0);
+    fade = cone * cone;
+  }
+  if (terms.cosine_emitter) fade *= std::max(cosine, 0.0);
+  if (terms.range_m > 0) {
+    const double near = distance / static_cast<double>(terms.range_m);
+    fade *= std::clamp(1 - near * near * near * near, 0.0, 1.0);
+  }
+  if (terms.distance_power < 0) fade /= distance * distance;
+  if (terms.distance_power > 0) fade *= distance * distance;
+  return std::min(fade, brightest);
+}
+
 }  // namespace tenebra::shade

@@ -63,4 +63,8 @@ struct LightTerms {
 };
 LightTerms light_terms(const DrawnLight& light, const ViewRays& view);
 
+/// Fading with distance and angle at one point, by the formula of diffuse-inl.h, in double; not of
+/// directional lights. `to_light`: unit, from the point to the light's place.
+double fade_of(const LightTerms& terms, const glm::dvec3& to_light, double distance);
+
 }  // namespace tenebra::shade

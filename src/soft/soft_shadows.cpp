@@ -89,13 +89,14 @@ struct SoftShadowTracer::State {
   void sort_out(const soft::SoftFrame& frame, const soft::GroupDecision& decision, Worker& worker);
   void solve_mixed(const soft::SoftFrame& frame, Worker& worker);
   bool refused(const SoftShadowConfig& config);
-  bool sample(const soft::SoftFrame& frame, const AreaLight& light);
+  bool sample(const soft::SoftFrame& frame, const AreaLight& light, std::span<const float> shown);
   bool solve_left(const soft::SoftFrame& frame, const TriangleView& triangles, const AreaLight& light);
   double threads_at_work() const { return workers.empty() ? 1 : static_cast<double>(workers.size()); }
   void gather();
   void count_shafts();
   bool trace(const VisiblePoints& seen, std::span<const glm::vec3> normals, const TriangleView& triangles,
-             const AreaLight& light, const SoftShadowConfig& config, SoftMask& out, const StopFlag* stop);
+             const AreaLight& light, const SoftShadowConfig& config, SoftMask& out, const StopFlag* stop,
+             std::span<const float> shown);
 };
 
 void SoftShadowTracer::State::prepare(const SoftShadowConfig& config) {
@@ -200,13 +201,14 @@ bool SoftShadowTracer::State::refused(const SoftShadowConfig& config) {
   return true;
 }
 
-bool SoftShadowTracer::State::sample(const soft::SoftFrame& frame, const AreaLight& light) {
+bool SoftShadowTracer::State::sample(const soft::SoftFrame& frame, const AreaLight& light,
+                                     std::span<const float> shown) {
   sampled.clear();
   for (const Worker& worker : workers)
     sampled.insert(sampled.end(), worker.sampled.begin(), worker.sampled.end());
   std::sort(sampled.begin(), sampled.end(), [](const auto& a, const auto& b) { return a.group < b.group; });
   base::Stopwatch watch;
-  const bool done = sampler.solve(frame, light, sampled, stats, left, errors);
+  const bool done = sampler.solve({frame, shown}, light, sampled, stats, left, errors);
   timings.query_ms += watch.lap_ms();
   return done;
 }
@@ -265,11 +267,12 @@ SoftShadowTracer::~SoftShadowTracer() = default;
 
 bool SoftShadowTracer::trace(const VisiblePoints& seen, std::span<const glm::vec3> normals,
                              const TriangleView& triangles, const AreaLight& light,
-                             const SoftShadowConfig& config, SoftMask& out, const StopFlag* stop) {
+                             const SoftShadowConfig& config, SoftMask& out, const StopFlag* stop,
+                             std::span<const float> shown) {
   const parallel::FloatEnvironment ieee;
   if (state_->at_work) state_ = std::make_unique<State>(state_->makers);
   state_->at_work = true;
-  const bool done = state_->trace(seen, normals, triangles, light, config, out, stop);
+  const bool done = state_->trace(seen, normals, triangles, light, config, out, stop, shown);
   state_->at_work = false;
   return done;
 }
@@ -277,7 +280,8 @@ bool SoftShadowTracer::trace(const VisiblePoints& seen, std::span<const glm::vec
 // Mora et al. 2012, Algorithm 2, with groups of points in place of visible triangles.
 bool SoftShadowTracer::State::trace(const VisiblePoints& seen, std::span<const glm::vec3> normals,
                                     const TriangleView& triangles, const AreaLight& light,
-                                    const SoftShadowConfig& config, SoftMask& out, const StopFlag* stop) {
+                                    const SoftShadowConfig& config, SoftMask& out, const StopFlag* stop,
+                                    std::span<const float> shown) {
   const VisiblePoints& points = points::with_positions(seen, triangles, positions);
   prepare(config);
   clear_pixels(points, out);
@@ -298,7 +302,7 @@ bool SoftShadowTracer::State::trace(const VisiblePoints& seen, std::span<const g
   if (!done || refused(config)) return false;
   if (!(config.error_255 > 0)) return true;
   errors.assign(points.triangles.size(), 0.0f);
-  if (!sample(frame, light)) return false;
+  if (!sample(frame, light, shown)) return false;
   if (!solve_left(frame, triangles, light)) return false;
   if (stats.points_penumbra > 0)
     stats.error_255 = std::sqrt(sampler.square_error() / static_cast<double>(stats.points_penumbra));

@@ -166,6 +166,7 @@ TEST_F(LightBufferTest, AreaBuffersTimesTheIrradianceOfASmallLightAreThoseOfItsC
           buffer_of(g, perspective, buffer_width, buffer_height, 0, materials, {light, placed});
       const io::ImageF area =
           buffer_of(g, perspective, buffer_width, buffer_height, 0, materials, {light, placed, *polygon});
+      const shade::LightTerms terms = shade::light_terms({light, placed, *polygon}, ViewRays{});
       int lit = 0;
       for (int i = 0; i < buffer_width * buffer_height; ++i) {
         const glm::dvec3 ray = glm::dvec3(perspective.d0) +
@@ -180,8 +181,11 @@ TEST_F(LightBufferTest, AreaBuffersTimesTheIrradianceOfASmallLightAreThoseOfItsC
         // An area light's own cosine is part of the point's light already; a lamp made an area gains it.
         const double factor =
             type == LightType::area_rect ? irradiance * std::max(at_light, 0.0) : irradiance;
+        const double fade = shade::fade_of(terms, path / distance, distance);
         for (int c = 0; c < 3; ++c) {
           const auto at = static_cast<std::size_t>(3 * i + c);
+          const double in_double = materials[0].base_color[c] * terms.color[c] * fade;
+          EXPECT_NEAR(area.pixels[at], in_double, 1e-4 * in_double + 1e-5) << i;
           EXPECT_NEAR(area.pixels[at] * factor, point.pixels[at], 1e-3 * point.pixels[at] + 1e-6) << i;
           lit += point.pixels[at] > 0;
         }

@@ -14,17 +14,19 @@ namespace {
 constexpr std::uint32_t most_places = 1024;  ///< on the light, for each slot; groups for which exact solving
                                              ///< would still take longer end here, whatever their error
 
-/// The reference for irradiance: the 99.9th percentile of the pixels' values, over a regular choice of them;
+/// The reference for light: the 99.9th percentile of what the pixels show, over a regular choice of them;
 /// where that is 0, the largest.
-double white_of(const SoftFrame& frame, const SampledBlocks& blocks, const LightMeans& means,
+double white_of(const ShownFrame& frame, const SampledBlocks& blocks, const LightMeans& means,
                 std::vector<float>& values) {
   constexpr std::size_t enough = 1 << 16;
-  const std::size_t pixels = frame.out.irradiance.size(), step = pixels / enough + 1;
+  const std::size_t pixels = frame.soft.out.irradiance.size(), step = pixels / enough + 1;
   values.clear();
   for (std::size_t i = 0; i < pixels; i += step) {
-    if (frame.points.triangles[i] == no_triangle) continue;
-    const std::uint32_t slot = blocks.slot(static_cast<std::uint32_t>(i));
-    values.push_back(frame.out.irradiance[i] * (slot == no_slot ? 1.0f : means.irradiance[slot]));
+    if (frame.soft.points.triangles[i] == no_triangle) continue;
+    const auto pixel = static_cast<std::uint32_t>(i);
+    const std::uint32_t slot = blocks.slot(pixel);
+    const double share = slot == no_slot ? 1.0 : static_cast<double>(means.irradiance[slot]);
+    values.push_back(static_cast<float>(frame.light_at(pixel) * share));
   }
   if (values.empty()) return 0;
   const std::size_t rank = (values.size() * 999 + 999) / 1000 - 1;  // nearest rank
@@ -37,12 +39,12 @@ bool is_penumbra(float fraction) {
   return fraction > 0 && fraction < 1;
 }
 
-/// Square of the error of a pixel's irradiance.
-double square_of(const SoftFrame& frame, const LightMeans& means, std::size_t slot, std::uint32_t pixel) {
-  const auto full = static_cast<double>(frame.out.irradiance[pixel]);
+/// Square of the error of what a pixel shows.
+double square_of(const ShownFrame& frame, const LightMeans& means, std::size_t slot, std::uint32_t pixel) {
+  const double full = frame.light_at(pixel);
   return static_cast<double>(means.square[slot]) * full * full;
 }
-void find_errors(const SoftFrame& frame, const SampledBlocks& blocks, const LightMeans& means,
+void find_errors(const ShownFrame& frame, const SampledBlocks& blocks, const LightMeans& means,
                  SampledErrors& out) {
   out.squares.assign(blocks.count(), 0.0), out.count.assign(blocks.count(), 0);
   out.pixels = out.penumbra = 0;
@@ -133,7 +135,7 @@ bool SoftSampler::look(const SoftFrame& frame, const LightPlaces& places,
 
 /// Takes out of the blocks and of `groups` those groups whose mean square error is more than `much` and that
 /// are solved exactly in less time than it takes to look at `places`.
-void SoftSampler::leave(const SoftFrame& frame, double much, std::uint32_t places,
+void SoftSampler::leave(const ShownFrame& frame, double much, std::uint32_t places,
                         std::vector<SampledGroup>& groups, std::vector<std::uint32_t>& left) {
   std::erase_if(groups, [&](const SampledGroup& group) {
     if (worth_sampling(group.candidates, places)) return false;
@@ -143,7 +145,8 @@ void SoftSampler::leave(const SoftFrame& frame, double much, std::uint32_t place
     if (square <= much * static_cast<double>(group.pixels.size())) return false;
     for (const std::uint32_t pixel : group.pixels) {
       const std::uint32_t slot = blocks_.slot(pixel);
-      frame.out.irradiance[pixel] *= means_.irradiance[slot];  // white is found by this until it is solved
+      frame.soft.out.irradiance[pixel] *=
+          means_.irradiance[slot];  // white is found by this until it is solved
       if (is_penumbra(means_.fraction[slot])) ++left_penumbra_;
       blocks_.pixels[slot] = no_pixel;
     }
@@ -152,12 +155,13 @@ void SoftSampler::leave(const SoftFrame& frame, double much, std::uint32_t place
   });
 }
 
-bool SoftSampler::solve(const SoftFrame& frame, const AreaLight& light, std::span<const SampledGroup> groups,
+bool SoftSampler::solve(const ShownFrame& shown, const AreaLight& light, std::span<const SampledGroup> groups,
                         SoftStats& stats, std::vector<std::uint32_t>& left, std::span<float> errors_255) {
   left.clear();
   square_error_ = 0;
   left_penumbra_ = 0;
   if (groups.empty()) return true;
+  const SoftFrame& frame = shown.soft;
   const std::uint64_t version = triangles_.version + 1;
   triangles_ = frame.triangles;
   triangles_.version = version;
@@ -175,8 +179,8 @@ bool SoftSampler::solve(const SoftFrame& frame, const AreaLight& light, std::spa
   for (std::uint32_t from = 0, to = first_places(asked);; from = to, to *= 2) {
     if (!look(frame, places, chosen_, from, to, stats)) return false;
     find_means(frame, blocks_, tally_, means_);
-    find_errors(frame, blocks_, means_, errors);
-    unit = white_of(frame, blocks_, means_, values_) / 255;
+    find_errors(shown, blocks_, means_, errors);
+    unit = white_of(shown, blocks_, means_, values_) / 255;
     const double error = asked * unit;
     const double allowed =
         error * error * static_cast<double>(stats.points_penumbra + left_penumbra_ + errors.penumbra);
@@ -184,19 +188,19 @@ bool SoftSampler::solve(const SoftFrame& frame, const AreaLight& light, std::spa
     // Those of the blocks that have looked at most places look again that err by more than the mean that is
     // allowed.
     const double much = allowed / static_cast<double>(errors.pixels);
-    leave(frame, much, 2 * to, sampled_, left);
-    find_errors(frame, blocks_, means_, errors);
+    leave(shown, much, 2 * to, sampled_, left);
+    find_errors(shown, blocks_, means_, errors);
     std::erase_if(chosen_, [&](std::uint32_t b) { return errors.squares[b] <= much * errors.count[b]; });
     if (chosen_.empty()) break;
   }
-  write_errors(frame, unit, errors_255);
+  write_errors(shown, unit, errors_255);
   write(frame, stats);
   square_error_ = unit > 0 ? errors.square / (unit * unit) : 0;
   return true;
 }
 
 /// To be called before write(), which changes the data that they are found from.
-void SoftSampler::write_errors(const SoftFrame& frame, double unit, std::span<float> errors_255) const {
+void SoftSampler::write_errors(const ShownFrame& frame, double unit, std::span<float> errors_255) const {
   if (!(unit > 0)) return;
   for (std::size_t slot = 0; slot < blocks_.pixels.size(); ++slot) {
     const std::uint32_t pixel = blocks_.pixels[slot];

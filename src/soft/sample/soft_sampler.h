@@ -23,6 +23,18 @@ struct CandidateCounts {
 /// Whether points of a group are sampled at this many places on the light, or solved exactly.
 bool worth_sampling(const CandidateCounts& candidates, std::uint32_t places);
 
+/// A frame, and what a unit of irradiance makes of light in the picture at each pixel; empty: 1.
+struct ShownFrame {
+  const SoftFrame& soft;
+  std::span<const float> shown;
+
+  /// Of what frame.out holds for the pixel.
+  double light_at(std::uint32_t pixel) const {
+    const auto irradiance = static_cast<double>(soft.out.irradiance[pixel]);
+    return shown.empty() ? irradiance : irradiance * static_cast<double>(shown[pixel]);
+  }
+};
+
 struct SampledGroup {
   std::uint32_t group;  ///< its number
   CandidateCounts candidates;
@@ -42,12 +54,12 @@ class SoftSampler {
 public:
   SoftSampler();
 
-  /// Multiplies frame.out of the groups' pixels, which hold the unoccluded light, by the visible shares, and
-  /// adds to `stats`, which have the pixels that were solved exactly. Groups that would take longer this way
-  /// than exactly are left alone: `left` gets their numbers. `errors_255`, one for each pixel, gets the
+  /// Multiplies frame.soft.out of the groups' pixels, which hold the unoccluded light, by the visible shares,
+  /// and adds to `stats`, which have the pixels that were solved exactly. Groups that would take longer this
+  /// way than exactly are left alone: `left` gets their numbers. `errors_255`, one for each pixel, gets the
   /// estimated errors of the others, in 1/255 of white. The bits do not depend on the order of groups,
-  /// threads or instruction set. Returns false if frame.stop was requested.
-  bool solve(const SoftFrame& frame, const AreaLight& light, std::span<const SampledGroup> groups,
+  /// threads or instruction set. Returns false if frame.soft.stop was requested.
+  bool solve(const ShownFrame& frame, const AreaLight& light, std::span<const SampledGroup> groups,
              SoftStats& stats, std::vector<std::uint32_t>& left, std::span<float> errors_255);
   /// After a call: the sum of the squares of the pixels' estimated errors, in 1/255 of white.
   double square_error() const { return square_error_; }
@@ -66,9 +78,9 @@ private:
   };
   void look(const SoftFrame& frame, const LightPlaces& places, std::span<const std::uint32_t> chosen,
             std::uint32_t phase, std::uint32_t from, std::uint32_t to);
-  void leave(const SoftFrame& frame, double much, std::uint32_t places, std::vector<SampledGroup>& groups,
+  void leave(const ShownFrame& frame, double much, std::uint32_t places, std::vector<SampledGroup>& groups,
              std::vector<std::uint32_t>& left);
-  void write_errors(const SoftFrame& frame, double unit, std::span<float> errors_255) const;
+  void write_errors(const ShownFrame& frame, double unit, std::span<float> errors_255) const;
   void write(const SoftFrame& frame, SoftStats& stats) const;
 
   double square_error_ = 0;
