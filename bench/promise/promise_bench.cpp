@@ -21,11 +21,11 @@ namespace {
 
 struct PromiseOptions : BenchOptions {
   std::vector<std::filesystem::path> scenes;
+  std::vector<double> light_sizes{0.5, 4, 25};
   int step = 10, views = 4, width = 320, height = 180, rounds = 0;
   unsigned seed = 1;
 };
 
-constexpr std::array light_percents{0.5, 4.0, 25.0};
 constexpr std::array sun_degrees{0.53, 5.0};
 
 /// Random views of a scene without cameras of its own: from a sphere around its middle, above its ground.
@@ -73,7 +73,7 @@ Expected<void> measure_scene(const PromiseOptions& options, const std::filesyste
                                           : fmt::format("{} view {}", file.stem().string(), v);
       for (std::size_t light = 0; light < opened->placed().lights.size(); ++light) {
         const bool sun = staged.scene.lights[light].type == LightType::directional;
-        for (const double size : sun ? std::span<const double>(sun_degrees) : light_percents) {
+        for (const double size : sun ? std::span<const double>(sun_degrees) : options.light_sizes) {
           progress(fmt::format("{} light {} of {}", name, light, size));
           const PromiseView view{name, static_cast<int>(light), sun, size, options.rounds};
           if (auto done = measure_view(*opened, view, table); !done) return done;
@@ -108,6 +108,8 @@ void add_promise_command(CLI::App& program, Run& run) {
       "promise", "Whether soft shadows err by no more than --soft-error allows, on any scene");
   const auto options = std::make_shared<PromiseOptions>();
   command->add_option("SCENE", options->scenes, "Scene files")->required();
+  command->add_option("--light-sizes", options->light_sizes, "Percent of the diagonal [0.5 4 25]")
+      ->check(CLI::Range(0.01, 100.0));
   command->add_option("--step", options->step, "Every N-th frame [10]")->check(CLI::Range(1, 1000000));
   command->add_option("--views", options->views, "Random views where a file has no camera [4]");
   command->add_option("--seed", options->seed, "Of the random views [1]");

@@ -12,11 +12,30 @@
 namespace tenebra::render {
 namespace {
 
+/// What weighing evenly makes of a unit of irradiance (soft::weigh_evenly): the light without over that with
+/// the cosine at the light; `path`: from the point to the light's centre. From two of its sides away each by
+/// Gauss's rule of two places along each axis of the rectangle: errors alone are weighed by it.
+double even_over_lambert(const AreaLight& light, const glm::dvec3& path, const glm::dvec3& normal) {
+  if (glm::dot(path, path) < 4 * light.area_m2) {
+    const glm::dvec3 at = light.centre - path;
+    const double whole = soft::whole_irradiance(light, at, normal);
+    return whole > 0 ? soft::even_irradiance(light, at, normal) / whole : 0;
+  }
+  constexpr double place = 0.5773502691896258;  // 1 / sqrt(3), of the way to the corner
+  double even = 0, lambert = 0;
+  for (const glm::dvec2& corner : light.polygon) {
+    const glm::dvec3 to = path + place * (corner.x * light.ex + corner.y * light.ey);
+    const double square = glm::dot(to, to), above = std::max(glm::dot(normal, to), 0.0);
+    even += above / (square * std::sqrt(square)), lambert += above / (square * square);
+  }
+  const double height = std::abs(glm::dot(light.normal, path));
+  return lambert * height > 0 ? even / (lambert * height) : 0;
+}
+
 /// What a unit of irradiance makes of light in the picture at each sample: fading as seen from the light's
-/// centre and, of lights that shine alike in every direction (soft::weigh_evenly), the cosine at the light's
-/// centre taken out again: theirs is at least the light's nearest and at most its farthest distance in place
-/// of that of the centre. Empty: the same everywhere.
-void shown_of_irradiance(const DrawnLight& light, const VisiblePoints& points, std::vector<float>& out) {
+/// centre, and of lights that shine alike in every direction even_over_lambert(). Empty: the same everywhere.
+void shown_of_irradiance(const DrawnLight& light, const LitSamples& at, std::vector<float>& out) {
+  const VisiblePoints& points = at.lit_at();
   const shade::LightTerms terms = shade::light_terms(light, ViewRays{});
   const bool even = light.back.has_value();
   const bool fades = terms.spot || terms.range_m > 0 || terms.distance_power != 0;
@@ -27,10 +46,11 @@ void shown_of_irradiance(const DrawnLight& light, const VisiblePoints& points, s
     for (std::size_t i = first; i < last; ++i) {
       if (points.triangles[i] == no_triangle) continue;
       const glm::dvec3 path = light.area->centre - points.positions[i];
-      const double distance = glm::length(path), height = std::abs(glm::dot(light.area->normal, path));
-      if (!(height > 0)) continue;
+      const double distance = glm::length(path);
+      if (!(distance > 0)) continue;
       const double fade = fades ? shade::fade_of(terms, path / distance, distance) : 1;
-      out[i] = static_cast<float>(even ? fade * (distance / height) : fade);
+      out[i] = static_cast<float>(
+          even ? fade * even_over_lambert(*light.area, path, glm::dvec3(at.normals[i])) : fade);
     }
   });
 }
@@ -73,7 +93,7 @@ Expected<void> Lighter::trace_visible_part(const Frame& frame, const DrawnLight&
   const TriangleView triangles = traced_triangles(frame, light);
   const HardShadowConfig of_points{.variant = settings.hard.variant, .simd = settings.hard.simd};
   shown_.clear();
-  if (settings.soft.error_255 > 0) shown_of_irradiance(light, at.lit_at(), shown_);
+  if (settings.soft.error_255 > 0) shown_of_irradiance(light, at, shown_);
   const bool done = by_points ? light_points_.trace(at.lit_at(), at.normals, triangles, *light.area,
                                                     settings.soft_points, of_points, out, frame.stop)
                               : soft_.trace(at.lit_at(), at.normals, triangles, *light.area, settings.soft,

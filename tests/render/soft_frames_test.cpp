@@ -1,5 +1,6 @@
 // Frames with soft shadows: pictures against closed forms, masks against geometry.
 #include <cstdint>
+#include <random>
 
 #include <tenebra/stop_flag.h>
 #include "render/render_fixture.h"
@@ -78,6 +79,56 @@ TEST(SoftFrames, ALightWithoutFalloffIsScaledByItsDistance) {
     const double squared = p.x * p.x + 9 + p.z * p.z;
     return 0.7 * squared / 2.0 * below_panel(p);
   });
+}
+
+/// A floor and 6,000 small triangles between it and (0, 3, 0).
+Scene floor_below_leaves() {
+  std::mt19937 random(73);
+  std::uniform_real_distribution<float> across(-6, 6), up(0.8f, 2.0f), step(-0.2f, 0.2f);
+  Scene scene = white_floor(false);
+  Mesh mesh{.name = "leaves"};
+  for (int i = 0; i < 6000; ++i) {
+    const vec3 middle(across(random), up(random), across(random));
+    for (int k = 0; k < 3; ++k)
+      mesh.positions.push_back(middle + vec3(step(random), step(random), step(random)));
+    const auto first = static_cast<std::uint32_t>(3 * i);
+    mesh.triangles.emplace_back(first, first + 1, first + 2);
+    mesh.materials.push_back(0);
+  }
+  add_mesh(scene, std::move(mesh));
+  return scene;
+}
+
+// In museum5, whose lamps have no fall-off and shine evenly, 2/255 were asked for and 0.8 told where 5.9 were
+// off.
+TEST(SoftFrames, AllowedErrorsAreThoseOfTheLightThatIsShown) {
+  Scene scene = floor_below_leaves();
+  add_light(scene, point_light(0.7f, Falloff::none), {0, 3, 0});
+  render::RenderSettings settings = with_size({2, 2});
+  settings.area_lights.emission = render::LightEmission::point;
+  settings.aovs.irradiance = true;
+  const render::FrameResult exact = draw(scene, settings);
+  const std::vector<float>& light = exact.aovs.irradiance.pixels;
+  std::vector<float> sorted(light);
+  std::sort(sorted.begin(), sorted.end());
+  const double white = sorted[sorted.size() * 999 / 1000];
+  for (const double asked : {8.0, 4.0}) {
+    settings.soft.error_255 = asked;
+    const render::FrameResult drawn = draw(scene, settings);
+    EXPECT_GT(drawn.soft.points_sampled, 500u);
+    double sum = 0;
+    int penumbra = 0;
+    for (std::size_t i = 0; i < exact.masks[0].visible_fraction.pixels.size(); ++i) {
+      const float fraction = exact.masks[0].visible_fraction.pixels[i];
+      if (!(fraction > 0 && fraction < 1)) continue;
+      const double off = 255 * (drawn.aovs.irradiance.pixels[3 * i] - light[3 * i]) / white;
+      sum += off * off, ++penumbra;
+    }
+    const double error = std::sqrt(sum / penumbra), told = drawn.soft.error_255;
+    EXPECT_LE(error, 1.25 * asked);
+    EXPECT_LE(error, 1.5 * told) << asked;
+    EXPECT_LE(told, 1.5 * error) << asked;
+  }
 }
 
 TEST(SoftFrames, PercentMeansTheDiagonalOfTheScene) {

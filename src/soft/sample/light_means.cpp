@@ -79,9 +79,10 @@ Around around(const SoftFrame& frame, const points::SeenTogether& near, const Sa
   return out;
 }
 
-/// The variance of one place, if each is seen with the probability `share`, independently of the others.
-float spread_of(float share) {
-  return share * (1 - share);
+/// The variance of a slot's weighted mean over its number of places, if each is seen with the probability
+/// `share`, independently of the others.
+float spread_of(const LightTally& tally, std::size_t slot, float share) {
+  return share * (1 - share) * tally.unevenness(slot);
 }
 
 /// What the halves tell, by the logarithm of the number of places: over all slots that have looked at about
@@ -102,7 +103,7 @@ public:
       Sum& sum = sums[level(slot)];
       const double apart = square(means.own[slot].apart());
       sum.apart += apart;
-      sum.spread += static_cast<double>(spread_of(means.smooth[slot]));
+      sum.spread += static_cast<double>(spread_of(tally, slot, means.smooth[slot]));
       if (means.smooth_apart[slot] < 0) continue;
       sum.apart_inside += apart;
       sum.smooth_apart += square(means.smooth_apart[slot]);
@@ -119,7 +120,9 @@ public:
     return of_four + (1 - of_four) * (near.of_few_phases() - 0.25f) / 0.75f;
   }
   /// The usual one of a slot that sees this share of the light.
-  float at(std::size_t slot, float share) const { return levels_[level(slot)].of_spread * spread_of(share); }
+  float at(std::size_t slot, float share) const {
+    return levels_[level(slot)].of_spread * spread_of(tally_, slot, share);
+  }
 
 private:
   static constexpr std::size_t levels = 33;

@@ -10,9 +10,15 @@ namespace tenebra::soft {
 
 void LightTally::start(const SampledBlocks& blocks) {
   for (Half& h : half)
-    for (auto* sums : {&h.weight_seen, &h.weight, &h.seen, &h.places})
+    for (auto* sums : {&h.weight_seen, &h.weight, &h.weight_square, &h.seen, &h.places})
       sums->assign(blocks.pixels.size(), 0.0f);
   rays.assign(blocks.count(), 0);
+}
+
+float LightTally::unevenness(std::size_t slot) const {
+  float sum = 0, square = 0, places = 0;
+  for (const Half& h : half) sum += h.weight[slot], square += h.weight_square[slot], places += h.places[slot];
+  return sum > 0 ? std::max(1.0f, places * (square / sum) / sum) : 1.0f;
 }
 
 void LightTally::add(const SoftFrame& frame, const SampledBlocks& blocks,
@@ -36,6 +42,7 @@ void LightTally::add(const SoftFrame& frame, const SampledBlocks& blocks,
             std::max(at_point, 0.0f) / square * (at_light / square) * glm::dot(from.at, from.at);
         const float counts = lit ? 1.0f : 0.0f;
         sums.weight[slots + i] += weight;
+        sums.weight_square[slots + i] += weight * weight;
         sums.weight_seen[slots + i] += counts * weight;
         sums.places[slots + i] += 1;
         sums.seen[slots + i] += counts;

@@ -16,9 +16,13 @@ struct LightTally {
   static constexpr std::size_t halves = 2;
   struct Half {
     std::vector<float> weight_seen, weight;  ///< one for each slot: of the visible places, of all
+    std::vector<float> weight_square;        ///< sum of the squares, of all
     std::vector<float> seen, places;         ///< their numbers; places below a horizon do not count
   };
   Half half[halves];
+  /// How unevenly a slot's places weigh: the variance of their weighted mean over that of as many with equal
+  /// weights, at least 1. Near the light few of them count.
+  float unevenness(std::size_t slot) const;
   std::vector<std::uint32_t> rays;  ///< of each block: places that each of its slots has looked at
 
   void start(const SampledBlocks& blocks);
