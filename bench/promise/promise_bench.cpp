@@ -53,7 +53,7 @@ Expected<void> measure_scene(const PromiseOptions& options, const std::filesyste
                              PromiseTable& table) {
   settings::SceneSettings scene;
   scene.file = file.string();
-  scene.shows = false;
+  scene.exposure_given = true;
   scene.size = settings::Size{options.width, options.height};
   render::RasterChoice raster;
   raster.kind = render::RasterKind::cpu;
@@ -94,11 +94,11 @@ Expected<void> measure(const PromiseOptions& options) {
     for (const std::filesystem::path& file : options.scenes)
       if (done = measure_scene(options, file, table); !done) return;
   });
-  if (!done) return done;
   table.print(options.rounds > 0);
   table.add_to(report);
   const std::array settings{fmt::format("seed: {}", options.seed)};
-  return report.write(settings);
+  const auto written = report.write(settings);
+  return done ? written : done;
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 TEST(PromiseBench, ComparesEachErrorWithTheExactPicture) {
   settings::SceneSettings scene;
   scene.file = TENEBRA_SCENES_DIR "/court.glb";
-  scene.shows = false;
+  scene.exposure_given = true;
   scene.size = settings::Size{128, 72};
   render::RasterChoice raster;
   raster.kind = render::RasterKind::cpu;
