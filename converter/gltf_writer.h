@@ -41,16 +41,20 @@ public:
   const std::vector<std::string>& left_out() const { return left_out_; }  ///< sentences
 
 private:
-  void leave_out(const char* sentence);  ///< says it once
+  void leave_out(const char* sentence);        ///< says it once
+  bool is_of(std::string_view program) const;  ///< by what Assimp calls the format
 
   void add_materials();
   Json material(const aiMaterial& source, bool all_clear);
+  Json phong(const aiMaterial& source);
   Json texture(const aiMaterial& source, aiTextureType type);
   std::size_t image(const std::string& name);
 
   void add_nodes();
   Json mesh_of(const aiNode& node);
   Json primitive(const aiMesh& mesh);
+  Json morph_targets(const aiMesh& mesh);
+  void even_out_targets(Json& primitives);
   void add_colors_and_coordinates(const aiMesh& mesh, Json& attributes);
   void add_influences(const aiMesh& mesh, const std::map<std::string, std::uint16_t>& joints,
                       Json& attributes);
@@ -60,6 +64,9 @@ private:
   void add_cameras();
   void hang(const aiString& name, const aiMatrix4x4& placed, Json content);
   void add_animations();
+  void add_weights(const aiMeshMorphAnim& source, double ticks_per_second, Json& animation);
+  void add_track(const std::vector<float>& times, const std::vector<float>& values, const char* type,
+                 const char* path, std::size_t node, Json& animation);
 
   const aiScene& scene_;
   std::filesystem::path folder_;

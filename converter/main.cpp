@@ -32,7 +32,8 @@ constexpr unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType | aiPro
 int convert(const std::filesystem::path& file, const std::filesystem::path& folder) {
   Assimp::Importer importer;
   auto* const files = new ConfinedFiles(folder, file.string());
-  importer.SetIOHandler(files);  // which deletes it
+  importer.SetIOHandler(files);                                         // which deletes it
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);  // bodies that no file states
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   const aiScene* const scene = importer.ReadFile(file.string(), steps);
   if (scene == nullptr) {

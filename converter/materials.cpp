@@ -59,6 +59,29 @@ Json GltfWriter::texture(const aiMaterial& source, aiTextureType type) {
   return {{"index", image(name.C_Str())}, {"texCoord", std::min(set, 1u)}};
 }
 
+/// Phong's highlights, which glTF does not know: in the extras that Tenebra writes itself. Null where there
+/// are none. Assimp gives materials without any a colour for them, too, and those of FBX the roughness that
+/// Blender makes of the exponent; another roughness is the file's own.
+Json GltfWriter::phong(const aiMaterial& source) {
+  int shading = aiShadingMode_Gouraud;
+  source.Get(AI_MATKEY_SHADING_MODEL, shading);
+  const float exponent = number_of(source, AI_MATKEY_SHININESS, 0);
+  if ((shading != aiShadingMode_Phong && shading != aiShadingMode_Blinn) || !(exponent > 0)) return nullptr;
+  const float as_blender = 1 - std::sqrt(exponent) / 10;
+  const float roughness = number_of(source, AI_MATKEY_ROUGHNESS_FACTOR, as_blender);
+  constexpr float roundings = 1e-5f;  // of a handful of operations on numbers below 100
+  if (std::abs(roughness - as_blender) > roundings || number_of(source, AI_MATKEY_METALLIC_FACTOR, 0) > 0)
+    return nullptr;
+  const float strength = std::clamp(number_of(source, AI_MATKEY_SHININESS_STRENGTH, 1), 0.0f, 1.0f);
+  Json picture = texture(source, aiTextureType_SPECULAR);
+  Json color = color_of(source, AI_MATKEY_COLOR_SPECULAR, picture.is_null() ? 0.0f : 1.0f);
+  for (Json& part : color) part = part.get<float>() * strength;
+  if (color == Json{0.0f, 0.0f, 0.0f}) return nullptr;
+  Json written{{"model", "phong"}, {"specular", std::move(color)}, {"phong_exponent", exponent}};
+  if (!picture.is_null()) written["specular_texture"] = std::move(picture);
+  return written;
+}
+
 Json GltfWriter::material(const aiMaterial& source, bool all_clear) {
   Json pbr{{"metallicFactor", std::clamp(number_of(source, AI_MATKEY_METALLIC_FACTOR, 0), 0.0f, 1.0f)},
            {"roughnessFactor", std::clamp(number_of(source, AI_MATKEY_ROUGHNESS_FACTOR, 1), 0.0f, 1.0f)}};
@@ -88,6 +111,7 @@ Json GltfWriter::material(const aiMaterial& source, bool all_clear) {
     written["emissiveFactor"] = emission;
   }
   written["pbrMetallicRoughness"] = std::move(pbr);
+  if (Json shine = phong(source); !shine.is_null()) written["extras"] = std::move(shine);
   return written;
 }
 

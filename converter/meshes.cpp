@@ -22,7 +22,8 @@ void append(const aiMatrix4x4& matrix, std::vector<float>& values) {
 }  // namespace
 
 void GltfWriter::add_colors_and_coordinates(const aiMesh& mesh, Json& attributes) {
-  if (mesh.HasVertexColors(0))
+  // Those of .blend come in bytes, and few of its materials use them.
+  if (mesh.HasVertexColors(0) && !is_of("Blender"))
     attributes["COLOR_0"] = glb_.add_accessor(mesh.mColors[0], mesh.mNumVertices, float_component, "VEC4");
   for (unsigned set = 0; set < 2 && mesh.HasTextureCoords(set); ++set) {
     std::vector<float> values;
@@ -54,6 +55,7 @@ Json GltfWriter::primitive(const aiMesh& mesh) {
       corners.insert(corners.end(), mesh.mFaces[i].mIndices, mesh.mFaces[i].mIndices + 3);
   Json written{{"attributes", std::move(attributes)},
                {"indices", glb_.add_accessor(corners.data(), corners.size(), word_component, "SCALAR")}};
+  if (Json targets = morph_targets(mesh); !targets.is_null()) written["targets"] = std::move(targets);
   if (mesh.mMaterialIndex < scene_.mNumMaterials) written["material"] = mesh.mMaterialIndex;
   return written;
 }
@@ -76,6 +78,7 @@ Json GltfWriter::mesh_of(const aiNode& node) {
     primitives.push_back(primitive(*part));
     primitive_of_[part] = primitives.back();
   }
+  even_out_targets(primitives);
   return mesh_index_[parts] =
              glb_.add("meshes", {{"name", node.mName.C_Str()}, {"primitives", std::move(primitives)}});
 }

@@ -14,8 +14,15 @@ Expected<Scene> placed(Expected<Scene> scene, const Placement& placement) {
   return scene;
 }
 
+/// `of_places`: places of nodes are floats, too.
+Expected<Scene> placed_floats(Expected<Scene> scene, const Placement& placement, bool of_places) {
+  scene = placed(std::move(scene), placement);
+  if (scene) warn_of_stored_floats(of_places, *scene);
+  return scene;
+}
+
 Expected<Scene> read_gltf_placed(const std::filesystem::path& path, const ImportOptions& options) {
-  return placed(import_gltf(path, options), options.placement);
+  return placed_floats(import_gltf(path, options), options.placement, false);
 }
 
 Expected<Scene> read_aff_placed(const std::filesystem::path& path, const ImportOptions& options) {
@@ -25,7 +32,14 @@ Expected<Scene> read_aff_placed(const std::filesystem::path& path, const ImportO
 }
 
 Expected<Scene> read_converted(const std::filesystem::path& path, const ImportOptions& options) {
-  return placed(import_converted(path, options, find_converter()), options.placement);
+  return placed_floats(import_converted(path, options, find_converter()), options.placement, true);
+}
+
+/// Assimp leaves Blender's axes as they are.
+Expected<Scene> read_blend(const std::filesystem::path& path, const ImportOptions& options) {
+  Placement placement = options.placement;
+  placement.up = placement.up.value_or(UpAxis::z);
+  return placed_floats(import_converted(path, options, find_converter()), placement, true);
 }
 
 constexpr std::string_view all_by_assimp = "meshes, materials, pictures, lights, cameras, animations, skins";
@@ -42,7 +56,8 @@ constexpr FileFormat formats[] = {
     {".stl", "STL", "own", "meshes in double where the file is text", false, import_stl},
     {".aff .nff", "BART's AFF, NFF", "own", "meshes, materials, pictures, lights, cameras, animations", false,
      read_aff_placed},
-    {".fbx", "Autodesk FBX", "Assimp", all_by_assimp, true, read_converted},
+    {".fbx", "Autodesk FBX", "Assimp",
+     "meshes, materials, pictures, lights, cameras, animations, skins, morph targets", true, read_converted},
     {".dae .zae", "COLLADA", "Assimp", all_by_assimp, true, read_converted},
     {".3mf .amf", "3MF, AMF (printing)", "Assimp", "meshes, colours", false, read_converted},
     {".3ds .ase .ask", "3D Studio", "Assimp", all_by_assimp, false, read_converted},
@@ -52,6 +67,10 @@ constexpr FileFormat formats[] = {
     {".ac .cob .ms3d", "AC3D, trueSpace, MilkShape", "Assimp", looks_by_assimp, false, read_converted},
     {".off .ogex .ter", "OFF, OpenGEX, Terragen", "Assimp", looks_by_assimp, false, read_converted},
     {".b3d .q3o .q3s", "Blitz3D, Quick3D", "Assimp", looks_by_assimp, false, read_converted},
+    {".blend", "Blender up to 2.7", "Assimp", "meshes, materials, pictures, lights, cameras; in parts", true,
+     read_blend},
+    {".ifc", "IFC2x3 (buildings)", "Assimp", "bodies with their openings, colours; in parts", true,
+     read_converted},
     {".xgl .zgl", "XGL", "Assimp", looks_by_assimp, false, read_converted},
     {".md2 .md3 .md5mesh", "Quake 2 and 3, Doom 3", "Assimp", looks_by_assimp, false, read_converted},
     {".mdl .hmp .smd", "Quake, 3DGS, Valve", "Assimp", looks_by_assimp, false, read_converted},
@@ -72,8 +91,7 @@ struct Way {
   std::string_view extensions, way;
 };
 constexpr Way ways[] = {
-    {".blend",
-     "open it in Blender, whose own reader alone knows what it says, and there: File > Export > glTF 2.0"},
+    {".blend", "open it in Blender, and there: File > Export > glTF 2.0"},
     {".step .stp .iges .igs .brep .fcstd",
      "it holds exact surfaces, not triangles; in FreeCAD: File > Open, then File > Export > glTF 2.0"},
     {".ifc .ifczip", "in Blender with the add-on Bonsai: File > Open IFC, then File > Export > glTF 2.0"},

@@ -61,7 +61,11 @@ std::string other_content(const fs::path& path) {
 void warn_of_nothing(Scene& scene) {
   std::size_t triangles = 0, solid = 0, shown = 0;
   std::vector<bool> visible;
-  const auto is_solid = [&](std::uint32_t material) { return scene.materials[material].alpha > 0; };
+  const auto is_solid = [&](std::uint32_t index) {
+    const Material& material = scene.materials[index];
+    if (material.alpha_mode == AlphaMode::mask) return material.alpha >= material.alpha_cutoff;
+    return material.alpha_mode == AlphaMode::opaque || material.alpha > 0;
+  };
   for (const Node& node : scene.nodes) {
     visible.push_back(node.visible && (node.parent < 0 || visible[static_cast<std::size_t>(node.parent)]));
     if (node.mesh < 0) continue;
@@ -73,7 +77,8 @@ void warn_of_nothing(Scene& scene) {
   if (triangles == 0)
     scene.warnings.push_back("The scene has no triangles: there is nothing to see.");
   else if (solid == 0)
-    scene.warnings.push_back("All materials have alpha 0: there is nothing to see.");
+    scene.warnings.push_back(
+        "All materials have alpha 0, or one below their cutoff: there is nothing to see.");
   else if (shown == 0)
     scene.warnings.push_back("All nodes with triangles are hidden: there is nothing to see.");
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "formats/file_points.h"
 #include "math/box.h"
 #include "math/vertex_rounding.h"
 #include "scene/pose.h"
@@ -161,6 +162,33 @@ void place_scene(const Placement& placement, Scene& scene) {
   }
   (*root.matrix)[3] = {0, 0, 0, 1};
   hang_from(root, scene);
+}
+
+void warn_of_stored_floats(bool of_places, Scene& scene) {
+  if (scene.frame.origin == glm::dvec3(0.0)) return;
+  double largest_m = 0;
+  const auto add = [&](const glm::dvec3& place, double scale) {
+    for (int axis = 0; axis < 3; ++axis) largest_m = std::max(largest_m, scale * std::abs(place[axis]));
+  };
+  if (of_places) add(scene.frame.origin, scene.frame.metres_per_unit);
+  const Start start(scene);
+  Pose pose;
+  scene::evaluate_pose(scene, start.clip, start.time_s, pose);
+  for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
+    const Node& node = scene.nodes[n];
+    if (node.mesh < 0 || node.skin >= 0) continue;
+    double scale = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      scale = std::max(scale, glm::length(glm::dvec3(pose.nodes[n].to_world[axis])));
+    for (const glm::vec3& place : scene.meshes[static_cast<std::size_t>(node.mesh)].positions)
+      add(glm::dvec3(place), scale);
+  }
+  math::Box<double> bounds;
+  scene::each_unrounded(scene, start.clip, start.time_s,
+                        [&](std::size_t, const glm::dvec3& place) { bounds.add(place); });
+  if (bounds.empty()) return;
+  const int side = bounds.longest_side();
+  warn_of_floats(largest_m, bounds.high[side] - bounds.low[side], scene);
 }
 
 void warn_of_tolerance(Scene& scene) {

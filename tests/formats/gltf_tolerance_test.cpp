@@ -193,7 +193,8 @@ TEST_F(GltfTolerance, FaultyCamerasAndLightsAreMadeRight) {
   file_.root["extensionsUsed"] = {"KHR_lights_punctual"};
   file_.root["extensions"]["KHR_lights_punctual"]["lights"] = {
       {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.5}, {"outerConeAngle", 0.5}}}},
-      {{"type", "spot"}, {"intensity", -3}, {"spot", {{"innerConeAngle", 2}, {"outerConeAngle", 3}}}}};
+      {{"type", "spot"}, {"intensity", -3}, {"spot", {{"innerConeAngle", 2}, {"outerConeAngle", 3}}}},
+      {{"type", "spot"}}};
   const Scene scene = read();
   EXPECT_EQ(scene.cameras.at(0).near_m, 0);
   EXPECT_GT(scene.cameras.at(1).vertical_fov_rad, 0);
@@ -201,9 +202,11 @@ TEST_F(GltfTolerance, FaultyCamerasAndLightsAreMadeRight) {
   EXPECT_EQ(scene.lights.at(0).inner_cone_rad, scene.lights[0].outer_cone_rad);
   EXPECT_FLOAT_EQ(scene.lights.at(1).outer_cone_rad, static_cast<float>(M_PI / 2));
   EXPECT_EQ(scene.lights[1].intensity, 0);
-  EXPECT_EQ(scene.warnings.size(), 5u);
+  EXPECT_FLOAT_EQ(scene.lights.at(2).outer_cone_rad, static_cast<float>(M_PI / 4));
+  EXPECT_EQ(scene.warnings.size(), 6u);
   for (const char* const warning :
-       {"cameras[1].perspective.yfov: found -1, expected more than 0; made 0.8.",
+       {"lights[2].spot: found nothing",
+        "cameras[1].perspective.yfov: found -1, expected more than 0; made 0.8.",
         "cameras[1].perspective.znear: found 0, expected more than 0",
         "cameras[1].perspective.zfar: found -1", "lights[1].intensity: found -3, expected 0 or more; made 0.",
         "lights[1].spot: found cone angles 2 and 3, expected 0 <= inner <= outer <= pi/2"})
@@ -237,6 +240,29 @@ TEST_F(GltfTolerance, FilesLieInTheRootThatTheUserNames) {
   EXPECT_FALSE(formats::import_scene(path, {.root = folder_ / "models"}).has_value());
 }
 
+TEST_F(GltfTolerance, ElementsLieAnyStrideApart) {
+  file_.root["bufferViews"][0]["byteStride"] = 14;
+  file_.bytes.insert(24, "..").insert(12, "..");  // behind the first two positions
+  file_.root["bufferViews"][0]["byteLength"] = file_.bytes.size();
+  const Scene scene = read();
+  EXPECT_EQ(scene.meshes.at(0).positions.at(1), glm::vec3(1, 0, 0));
+  EXPECT_EQ(scene.meshes.at(0).positions.at(2), glm::vec3(0, 1, 0));
+  EXPECT_TRUE(says(scene, "bufferViews[0].byteStride: found 14"));
+}
+
+TEST_F(GltfTolerance, PartsWithoutVerticesOrCornersAreSkipped) {
+  Json& accessors = file_.root["accessors"];
+  Json& parts = file_.root["meshes"][0]["primitives"];
+  accessors.push_back({{"componentType", 5126}, {"count", 0}, {"type", "VEC3"}});
+  accessors.push_back({{"componentType", 5123}, {"count", 0}, {"type", "SCALAR"}});
+  parts.push_back({{"attributes", {{"POSITION", accessors.size() - 2}}}});
+  parts.push_back(parts[0]);
+  parts.back()["indices"] = accessors.size() - 1;
+  const Scene scene = read();
+  EXPECT_EQ(scene.meshes.at(0).triangles.size(), 1u);
+  EXPECT_TRUE(says(scene, "skipped 2 primitives without vertices"));
+}
+
 TEST_F(GltfTolerance, ASceneWithNothingToSeeSaysSoOnce) {
   const auto last = [&] { return read().warnings.back(); };
   file_.root["nodes"][0]["extensions"]["KHR_node_visibility"]["visible"] = false;
@@ -246,7 +272,17 @@ TEST_F(GltfTolerance, ASceneWithNothingToSeeSaysSoOnce) {
   testing::write_text(folder_ / "a.mtl", "newmtl a\nd 0\n");
   testing::write_text(folder_ / "a.obj", "mtllib a.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_EQ(formats::import_scene(folder_ / "a.obj")->warnings.back(),
-            "All materials have alpha 0: there is nothing to see.");
+            "All materials have alpha 0, or one below their cutoff: there is nothing to see.");
+}
+
+TEST_F(GltfTolerance, MaterialsThatCutAllAwaySaySoAndOpaqueOnesDoNot) {
+  file_.root["meshes"][0]["primitives"][0]["material"] = 0;
+  for (const auto& [mode, alpha, seen] :
+       {std::tuple{"MASK", 0.3, false}, {"MASK", 0.5, true}, {"OPAQUE", 0.0, true}}) {
+    file_.root["materials"] = {
+        {{"alphaMode", mode}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, alpha}}}}}};
+    EXPECT_NE(says(read(), "nothing to see"), seen) << mode << alpha;
+  }
 }
 
 TEST_F(GltfTolerance, WhatIsNoSceneIsNamedWithTheNextStep) {

@@ -62,6 +62,22 @@ TEST(PlaceScene, GivesEqualScenesTheSameBitsWhereverTheyStand) {
   }
 }
 
+TEST(PlaceScene, SaysWhereVerticesAreFloatsTooFarApart) {
+  const auto says = [](const GltfBuilder& file) {
+    return testing::contains(import(file).warnings, "floats, which lie 0.5 m apart at 5334577 m");
+  };
+  GltfBuilder far;
+  far.root["meshes"] = {
+      {{"primitives",
+        {{{"attributes",
+           {{"POSITION", far.floats({5334567, 0, 0, 5334577, 0, 0, 5334567, 10, 0}, "VEC3", 3, true)}}}}}}}};
+  far.root["nodes"] = {{{"mesh", 0}}};
+  EXPECT_TRUE(says(far));
+  far.root["nodes"] = {{{"mesh", 0}, {"translation", {-5334567, 0, 0}}}};
+  EXPECT_FALSE(says(far)) << "the node brings it back";
+  EXPECT_TRUE(import(far_scene({5334567, 0, 0})).warnings.empty()) << "the node carries it";
+}
+
 TEST(PlaceScene, SubtractsFromAMatrixAndFromVertices) {
   GltfBuilder sheared = far_scene({0, 0, 0});  // which is no product of translation, rotation and scale
   const auto with_matrix = [&](double far) {

@@ -57,6 +57,7 @@ TEST_F(Ply, BinaryOfBothByteOrdersKeepsDoublesOfTheMap) {
     ASSERT_TRUE(scene.has_value()) << scene.error().message;
     const Mesh& mesh = scene->meshes.at(0);
     EXPECT_NE(scene->frame.origin, glm::dvec3(0));
+    EXPECT_TRUE(scene->warnings.empty());
     EXPECT_NEAR(mesh.positions.at(1).x - mesh.positions[0].x, 10.3, 1e-5);
     EXPECT_EQ(mesh.unrounded.at(1) + scene->frame.origin, glm::dvec3(431245.05, 5812345.25, 10));
     EXPECT_EQ(mesh.triangles.at(0), glm::uvec3(0, 1, 2));

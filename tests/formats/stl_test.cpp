@@ -16,7 +16,8 @@ std::string facet(const std::string& vertices) {
 const std::string stl_triangle = facet("vertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\n");
 
 /// The binary form, stating `stated` triangles and holding `held`, that of stl_triangle each time.
-std::string binary_stl(std::uint32_t stated, int held, std::string begin = "solid by a CAD program") {
+std::string binary_stl(std::uint32_t stated, int held, std::string begin = "solid by a CAD program",
+                       float east = 0) {
   const auto word = [](std::uint32_t value) {
     std::string bytes;
     for (int i = 0; i < 4; ++i) bytes += static_cast<char>(value >> 8 * i);
@@ -25,7 +26,7 @@ std::string binary_stl(std::uint32_t stated, int held, std::string begin = "soli
   begin.resize(80, ' ');
   std::string file = begin + word(stated);
   for (int i = 0; i < held; ++i) {
-    for (const float x : {0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 1.f, 0.f})
+    for (const float x : {0.f, 0.f, 1.f, east, 0.f, 0.f, east + 1, 0.f, 0.f, east + 1, 1.f, 0.f})
       file += word(std::bit_cast<std::uint32_t>(x));
     file += std::string(2, '\0');
   }
@@ -105,6 +106,15 @@ TEST_F(Stl, WhatIsCutOffOrSomethingElseIsASentence) {
   refuses("solid\n" + facet("vertex 0 0 0\nvertex 1 0 0\n"), "found a facet of 2 vertices");
   refuses("solid\nface 1 2 3\n", "line 2: found 'face'");
   EXPECT_EQ(read("solid\n" + stl_triangle).warnings.size(), 1u) << "no endsolid";
+}
+
+TEST_F(Stl, FloatsFarOutAreWarnedOfAndTextIsNot) {
+  const auto warnings = read(binary_stl(1, 1, "x", 5e6f)).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("floats, which lie 0.5 m apart"), std::string::npos) << warnings[0];
+  EXPECT_TRUE(read("solid\n" + facet("vertex 5000000.2 0 0\nvertex 5000001.2 0 0\nvertex 5000001.2 1 0\n") +
+                   "endsolid\n")
+                  .warnings.empty());
 }
 
 }  // namespace

@@ -293,11 +293,8 @@ void check_accessors(Asset& asset) {
   constexpr std::size_t most_unaligned = 10;  // that are named
   for (std::size_t i = 0; i < asset.model.accessors.size(); ++i) {
     const Accessor& accessor = asset.model.accessors[i];
-    // A count of 0 marks an accessor of unknown type: refused when used.
-    const bool blanked = accessor.count == 0 && accessor.type == TINYGLTF_TYPE_SCALAR &&
-                         accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT && accessor.bufferView < 0;
-    if (blanked) continue;
-    const bool all_zeros = accessor.bufferView < 0 && !accessor.sparse.isSparse && accessor.count > 0;
+    if (accessor.count == 0) continue;  // or of an unknown type: refused where its values are needed
+    const bool all_zeros = accessor.bufferView < 0 && !accessor.sparse.isSparse;
     if (all_zeros) continue;
     work.take(accessor.count, 1, fmt::format("accessors[{}].count", i));
     Budget passing = asset.budget;  // the values live only for the check

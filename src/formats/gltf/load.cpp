@@ -171,8 +171,11 @@ void check_extensions(Asset& asset) {
   if (!names.empty()) warnings.push_back(fmt::format("extensionsUsed: {}: not read.", names));
 }
 
-/// What hide_indices_without_view of the schema put aside.
-void restore_indices(Model& model) {
+/// What the schema's hide_indices_without_view and hide_odd_strides put aside.
+void restore_hidden(Model& model) {
+  for (auto& view : model.bufferViews)
+    if (const Value* stride = member(view.extras, "byteStride"))
+      view.byteStride = static_cast<std::size_t>(stride->GetNumberAsInt());
   for (auto& mesh : model.meshes)
     for (auto& primitive : mesh.primitives)
       if (const Value* indices = member(primitive.extras, "indices"))
@@ -238,7 +241,7 @@ void load_model(const std::filesystem::path& path, std::string_view bytes, Asset
   if (!reader.LoadASCIIFromString(&asset.model, &error, &warning, json.data(),
                                   static_cast<unsigned>(json.size()), ""))
     refuse("JSON: found a fault ({}), expected glTF 2.0", error.substr(0, error.find('\n')));
-  restore_indices(asset.model);
+  restore_hidden(asset.model);
   asset.scene.extensions = asset.model.extensionsUsed;
   check_version(asset);
   check_extensions(asset);

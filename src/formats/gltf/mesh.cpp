@@ -207,6 +207,15 @@ struct MeshBuilder {
                                                               : asset.model.materials.size());
   }
 
+  /// Whether a list of vertices or corners without any, which glTF does not allow, is stated in so many
+  /// words.
+  bool is_empty(const tinygltf::Primitive& primitive, const Accessor& positions) const {
+    if (positions.count == 0 && positions.type == TINYGLTF_TYPE_VEC3) return true;
+    if (primitive.indices < 0) return false;
+    const Accessor& indices = accessor(primitive.indices);
+    return indices.count == 0 && indices.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT;
+  }
+
   void add_primitive(tinygltf::Primitive primitive, std::size_t p) {
     if (primitive.mode < -1 || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
       asset.scene.warnings.push_back(
@@ -215,7 +224,7 @@ struct MeshBuilder {
     }
     const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
     const auto position = primitive.attributes.find("POSITION");
-    if (position == primitive.attributes.end()) {
+    if (position == primitive.attributes.end() || is_empty(primitive, accessor(position->second))) {
       ++no_positions;
       return;
     }
@@ -266,7 +275,7 @@ struct MeshBuilder {
     if (lines > 0)
       warnings.push_back(fmt::format("{}: skipped {} primitives of points or lines.", here, lines));
     if (no_positions > 0)
-      warnings.push_back(fmt::format("{}: skipped {} primitives without POSITION.", here, no_positions));
+      warnings.push_back(fmt::format("{}: skipped {} primitives without vertices.", here, no_positions));
     if (mended_weights > 0)
       warnings.push_back(fmt::format("{}: found {} vertices whose skin weights do not sum to 1; made so.",
                                      here, mended_weights));

@@ -100,6 +100,33 @@ void hide_indices_without_view(Json& root) {
     }
 }
 
+/// tinygltf refuses strides that glTF does not allow; where the elements lie they say all the same.
+void hide_odd_strides(Json& root) {
+  if (!root.contains("bufferViews")) return;
+  for (Json& view : root["bufferViews"]) {
+    constexpr std::uint64_t most = 252, most_read = 1 << 30;
+    const std::uint64_t stride = view.contains("byteStride") ? view["byteStride"].get<std::uint64_t>() : 0;
+    if ((stride <= most && stride % 4 == 0) || stride > most_read) continue;
+    view["extras"]["byteStride"] = stride;
+    view.erase("byteStride");
+  }
+}
+
+/// A spot's cone where the file states none: of glTF's default angles.
+void add_missing_cones(Json& root, std::vector<std::string>& warnings) {
+  const Json::json_pointer place("/extensions/KHR_lights_punctual/lights");
+  if (!root.contains(place)) return;
+  for (std::size_t i = 0; i < root[place].size(); ++i) {
+    Json& light = root[place][i];
+    if (light["type"] != "spot" || light.contains("spot")) continue;
+    light["spot"] = {{"innerConeAngle", 0}};
+    warnings.push_back(fmt::format(
+        "extensions.KHR_lights_punctual.lights[{}].spot: found nothing, expected a cone; one of 45 degrees "
+        "around its middle is used.",
+        i));
+  }
+}
+
 /// tinygltf drops channels without a node in silence, and those of KHR_animation_pointer have none.
 void mark_channels_without_nodes(Json& root) {
   if (!root.contains("animations")) return;
@@ -142,6 +169,8 @@ std::string check_gltf_schema(std::string_view json, std::vector<std::string>& w
   replace_unknown_cameras(root, warnings);
   mark_channels_without_nodes(root);
   hide_indices_without_view(root);
+  hide_odd_strides(root);
+  add_missing_cones(root, warnings);
   // tinygltf fetches what stands under "buffers" and "images" by itself; what stands under "extras" it leaves
   // to its caller.
   if (root.contains("buffers")) root["extras"]["buffers"] = std::move(root["buffers"]);

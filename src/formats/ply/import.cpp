@@ -62,6 +62,13 @@ private:
     faces_.vertices = points.size();
     scene_.frame = choose_frame(options_.placement, {}, points);
     warn_of_odd_positions(points, scene_);
+    const auto is_double = [](const ply::Property& p) {
+      return p.name == "x" && p.type == ply::Type::float64;
+    };
+    const auto& properties = element.properties;
+    if (header_.encoding != ply::Encoding::ascii &&
+        std::none_of(properties.begin(), properties.end(), is_double))
+      warn_of_floats(points, scene_);
     add_positions(points, scene_.frame, options_.keep_unrounded, mesh_);
     for (glm::vec3& n : mesh_.normals) n = unit_or_zero(scene_.frame.direction_to_scene(n));
   }

@@ -41,6 +41,7 @@ Scene read_stl(const std::filesystem::path& path, const ImportOptions& options) 
   scene.warnings = std::move(file.warnings);
   scene.frame = choose_frame(options.placement, stl_coordinates, file.positions);
   warn_of_odd_positions(file.positions, scene);
+  if (file.floats) warn_of_floats(file.positions, scene);
   for (std::size_t s = 0; s < file.solids.size(); ++s) add_solid(file, s, options, scene);
   if (!scene.meshes.empty()) scene.materials.emplace_back();
   if (file.colored > 0) scene.unused.push_back({"colours of facets", file.colored});

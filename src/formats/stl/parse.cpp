@@ -90,6 +90,7 @@ public:
     if (const std::size_t rest = bytes.size() - header_size - count * triangle_size; rest > 0)
       file_.warnings.push_back(fmt::format(
           "Found {} bytes behind the {} triangles that the header states; not read.", rest, count));
+    file_.floats = true;
     begin_solid({});
     file_.triangles.reserve(count);
     for (std::size_t i = 0; i < count; ++i)

@@ -19,6 +19,7 @@ struct StlFile {
   std::vector<glm::dvec3> positions;  ///< as the file has them; may not be finite
   std::vector<glm::uvec3> triangles;  ///< indices into `positions`
   std::vector<std::string> warnings;  ///< what was passed over
+  bool floats = false;                ///< positions are floats, not text
   std::size_t colored = 0;            ///< triangles with bytes that some programs use for colours
 };
 
