@@ -20,21 +20,6 @@ std::string_view trimmed(std::string_view text, std::string_view blanks = " \t\r
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-/// The cells of a line, without blanks and quotes around them. A comma within quotes belongs to its cell.
-void split_cells(std::string_view line, std::vector<std::string_view>& cells) {
-  cells.clear();
-  std::size_t begin = 0, quotes = 0;
-  for (std::size_t at = 0; at <= line.size(); ++at) {
-    const bool ends = at == line.size() || (line[at] == ',' && quotes % 2 == 0);
-    if (ends) {
-      cells.push_back(trimmed(line.substr(begin, at - begin), " \t\r\""));
-      begin = at + 1;
-    } else if (line[at] == '"') {
-      ++quotes;
-    }
-  }
-}
-
 std::optional<double> finite_number(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   return base::finite_in(text);
@@ -64,6 +49,20 @@ private:
 };
 
 }  // namespace
+
+void split_cells(std::string_view line, std::vector<std::string_view>& cells) {
+  cells.clear();
+  std::size_t begin = 0, quotes = 0;
+  for (std::size_t at = 0; at <= line.size(); ++at) {
+    const bool ends = at == line.size() || (line[at] == ',' && quotes % 2 == 0);
+    if (ends) {
+      cells.push_back(trimmed(line.substr(begin, at - begin), " \t\r\""));
+      begin = at + 1;
+    } else if (line[at] == '"') {
+      ++quotes;
+    }
+  }
+}
 
 Expected<Columns> read_columns(const std::filesystem::path& file, std::span<const std::string_view> names) {
   const auto text = io::read_file(file, most_bytes);

@@ -18,6 +18,10 @@ struct Columns {
   bool has(std::size_t column) const { return !values[column].empty(); }
 };
 
+/// The cells of a line of comma-separated values, without blanks and quotes around them. A comma within
+/// quotes belongs to its cell.
+void split_cells(std::string_view line, std::vector<std::string_view>& cells);
+
 /// Reads the columns of these names, in lower or upper case; others may hold anything. Empty lines and lines
 /// that begin with # are passed over. Refuses, by its line, a value that is no number; files without a row,
 /// or of more than 1 GiB.

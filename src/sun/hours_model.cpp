@@ -97,12 +97,13 @@ Expected<HoursModel> model_of(const Study& study, const ColourScale& scale) {
     return base::fail("found points of a list, expected faces or a ground to colour; a table has points");
   HoursModel model;
   model.scene.name = study.scene.name, model.scene.frame = study.scene.frame;
+  const Quantity quantity = quantity_of(study.suns);
   Material material;
-  material.name = what_of(study), material.base_color = glm::vec3(1), material.model = SurfaceModel::unlit;
+  material.name = quantity.name, material.base_color = glm::vec3(1), material.model = SurfaceModel::unlit;
   model.scene.materials.push_back(material);
-  model.additions.attribute = study.suns.timed ? "_SUN_HOURS" : "_SUN_SUM";
-  model.additions.notes = {{"colours", fmt::format("viridis, 0 to {:.6g} {}", scale.most, what_of(study))}};
-  if (study.suns.timed) model.additions.notes.emplace_back("zone", zone_text(study.suns.zone_min));
+  model.additions.attribute = quantity.attribute;
+  model.additions.notes = {{"colours", fmt::format("viridis, 0 to {:.6g} {}", scale.most, quantity.name)}};
+  if (study.suns.timed()) model.additions.notes.emplace_back("zone", zone_text(study.suns.zone_min));
   Painter painter(model, scale);
   paint_nodes(study, painter);
   if (study.receivers.kind == ReceiverKind::cells) paint_ground(study, painter);

@@ -17,6 +17,20 @@ struct Cell {
 };
 using Cells = std::vector<Cell>;
 
+constexpr double hour_min = 60, kilo = 1000;
+
+const char* model_of_suns(SunKind kind) {
+  switch (kind) {
+    case SunKind::sums:
+      return "weights of the suns that are seen";
+    case SunKind::minutes:
+      return "minutes of an unclouded sun";
+    case SunKind::radiation:
+      break;
+  }
+  return "direct normal radiation of a weather file times the cosine to the surface, where the sun is seen";
+}
+
 std::vector<std::string> names_of(const Study& study) {
   const ReceiverKind kind = study.receivers.kind;
   std::vector<std::string> names{kind == ReceiverKind::faces   ? "face"
@@ -25,10 +39,13 @@ std::vector<std::string> names_of(const Study& study) {
   if (kind == ReceiverKind::faces) names.insert(names.end(), {"node", "material"});
   names.insert(names.end(), {"x", "y", "z"});
   if (kind != ReceiverKind::points) names.emplace_back("area_m2");
-  names.emplace_back(what_of(study));
-  if (study.suns.timed) names.insert(names.end(), {"first_sun", "last_sun"});
+  names.emplace_back(quantity_of(study.suns).name);
+  const bool light = study.suns.kind == SunKind::radiation;
+  if (light) names.emplace_back("hours");
+  if (study.suns.timed()) names.insert(names.end(), {"first_sun", "last_sun"});
   if (!study.hours.months.empty())
-    for (int month = 1; month <= 12; ++month) names.push_back(fmt::format("minutes_{:02}", month));
+    for (int month = 1; month <= 12; ++month)
+      names.push_back(fmt::format("{}_{:02}", light ? "kwh_m2" : "minutes", month));
   return names;
 }
 
@@ -64,12 +81,13 @@ void fill_row(const Study& study, std::size_t i, Cells& cells) {
   for (int axis = 0; axis < 3; ++axis) cells.push_back(coordinate(place[axis]));
   if (study.receivers.kind != ReceiverKind::points) cells.push_back(number(receiver.area_m2));
   cells.push_back(number(value_of(study, i)));
-  if (study.suns.timed) {
+  if (study.suns.kind == SunKind::radiation) cells.push_back(number(study.hours.sums[i] / hour_min));
+  if (study.suns.timed()) {
     cells.push_back(time_of(study, study.hours.first[i]));
     cells.push_back(time_of(study, study.hours.last[i]));
   }
   for (std::size_t m = 12 * i; m < study.hours.months.size() && m < 12 * i + 12; ++m)
-    cells.push_back(number(study.hours.months[m]));
+    cells.push_back(number(study.hours.months[m] / (study.hours.light.empty() ? 1 : kilo)));
 }
 
 /// In quotes, those within doubled, where the text would be taken for more than one cell.
@@ -87,13 +105,23 @@ std::string json_cell(const Cell& cell) {
 
 }  // namespace
 
-double value_of(const Study& study, std::size_t i) {
-  constexpr double hour_min = 60;
-  return study.suns.timed ? study.hours.sums[i] / hour_min : study.hours.sums[i];
+Quantity quantity_of(const Suns& suns) {
+  switch (suns.kind) {
+    case SunKind::sums:
+      return {"sum", "", "_SUN_SUM", 1};
+    case SunKind::minutes:
+      return {"hours", "h", "_SUN_HOURS", hour_min};
+    case SunKind::radiation:
+      break;
+  }
+  return {"kwh_m2", "kWh/m2", "_SUN_KWH", kilo};
 }
 
-const char* what_of(const Study& study) {
-  return study.suns.timed ? "hours" : "sum";
+double value_of(const Study& study, std::size_t i) {
+  const SunHours& hours = study.hours;
+  const bool light = study.suns.kind == SunKind::radiation;
+  const double amount = !light ? hours.sums[i] : hours.light.empty() ? 0 : hours.light[i];
+  return amount / quantity_of(study.suns).per;
 }
 
 std::string csv_of(const Study& study) {
@@ -116,7 +144,10 @@ std::string json_of(const Study& study) {
   std::string out =
       fmt::format("{{\n\"scene\": {},\n\"suns\": {},\n\"suns_below_the_horizon\": {},\n",
                   base::json_string(study.scene.name), study.suns.list.size(), study.suns.below);
-  if (study.suns.timed)
+  if (const Quantity quantity = quantity_of(study.suns); *quantity.unit != 0)
+    out += fmt::format("\"value\": \"{}\",\n\"unit\": \"{}\",\n", quantity.name, quantity.unit);
+  out += fmt::format("\"model\": {},\n", base::json_string(model_of_suns(study.suns.kind)));
+  if (study.suns.timed())
     out += fmt::format("\"zone\": {},\n", base::json_string(zone_text(study.suns.zone_min)));
   fmt::format_to(std::back_inserter(out), "\"columns\": [{}],\n\"rows\": [", names);
   Cells cells;

@@ -16,17 +16,25 @@ struct Study {
   const SunHours& hours;
 };
 
-/// Hours or, where suns have no time, the sum that receiver `i` got.
+/// What is counted, for people and programs.
+struct Quantity {
+  const char* name;       ///< of its column
+  const char* unit;       ///< empty: none
+  const char* attribute;  ///< of vertices
+  double per;             ///< how much of SunHours is 1 of it
+};
+Quantity quantity_of(const Suns& suns);
+/// How much of it receiver `i` got.
 double value_of(const Study& study, std::size_t i);
-/// "hours" or "sum".
-const char* what_of(const Study& study);
 
 /// A line of names, then a row for each receiver, in order: face (number of the triangle in the scene), cell
-/// or point; of a face its node and material; x, y, z of its middle; its area; `hours` or, where suns have no
-/// time, `sum`; when the first and the last sun are seen; minutes for each month,
-/// where they were asked for: N days that one stands for count in its month, and years are added up.
+/// or point; of a face its node and material; x, y, z of its middle; its area; `hours`, `sum` where suns have
+/// no time, `kwh_m2` and `hours` where they have light; when the first and the last sun are seen; minutes, or
+/// the light, of each month, where they were asked for: N days that one stands for count in its month, and
+/// years are added up.
 std::string csv_of(const Study& study);
-/// {"columns": [...], "rows": [[...], ...]} of the same, with what a reader must know beside it.
+/// {"columns": [...], "rows": [[...], ...]} of the same, with what a reader must know beside it: the model,
+/// the unit, the zone.
 std::string json_of(const Study& study);
 
 }  // namespace tenebra::sun

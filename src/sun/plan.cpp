@@ -13,7 +13,7 @@ namespace {
 
 // Pixels.
 constexpr int edge = 16, bar_width = 20, dot = 2, letter_height = 7 * dot, letter_step = 7 * dot;
-constexpr int legend_width = 3 * edge / 2 + bar_width + 11 * letter_step, least_height = 160;
+constexpr int legend_width = 3 * edge / 2 + bar_width + 13 * letter_step, least_height = 160;
 constexpr glm::vec3 black(0);
 
 class Canvas {
@@ -59,10 +59,10 @@ void draw_legend(Canvas& canvas, int x, int height, const Study& study, const Co
   for (int row = 0; row < height; ++row)
     canvas.fill(x, edge + row, bar_width, 1, scale(scale.most * (1 - (row + 0.5) / height)));
   constexpr int labels = 4;
+  const std::string unit = quantity_of(study.suns).unit;
   for (int i = 0; i <= labels; ++i) {
     const int y = edge + (height - letter_height) * (labels - i) / labels;
-    canvas.write(x + bar_width + edge / 2, y,
-                 fmt::format("{:.4g}{}", scale.most * i / labels, study.suns.timed ? " h" : ""));
+    canvas.write(x + bar_width + edge / 2, y, fmt::format("{:.4g} {}", scale.most * i / labels, unit));
   }
 }
 

@@ -1,6 +1,7 @@
 #include "sun/sun_hours.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "base/fail.h"
@@ -34,30 +35,69 @@ Batch next_batch(std::span<const std::uint32_t> ends, std::size_t first) {
   return {first, end, begin, ends[end - 1]};
 }
 
+/// Which way a point's surface faces.
+struct Facing {
+  glm::dvec3 normal;  ///< unit
+  bool both;          ///< it is the side that the sun is on
+
+  double cosine(const glm::dvec3& to_sun) const {
+    const double cosine = glm::dot(normal, to_sun);
+    return both ? std::abs(cosine) : std::max(cosine, 0.0);
+  }
+};
+
+Facing facing_of(const TriangleView& view, const QueryPoints& points, std::size_t i) {
+  const glm::dvec3 given = points.normals.empty() ? glm::dvec3(0.0) : glm::dvec3(points.normals[i]);
+  if (const double length = glm::length(given); length > 0) return {given / length, false};
+  const std::uint32_t triangle = points.triangles.empty() ? no_triangle : points.triangles[i];
+  // Numbers of no triangle are left to the tracer, which refuses them.
+  if (triangle >= view.triangles.size()) return {glm::dvec3(0.0), triangle != no_triangle};
+  const auto corner = [&](int k) { return glm::dvec3(view.positions[view.triangles[triangle][k]]); };
+  const glm::dvec3 cross = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+  const double length = glm::length(cross);
+  const int side = points.sides.empty() ? 0 : points.sides[i];
+  if (!(length > 0)) return {glm::dvec3(0.0), true};
+  return {cross / (side < 0 ? -length : length), side == 0};
+}
+
 /// How much each point of a batch sees of a sun: marks of a mask, or shares of a disc.
 struct Sight {
   std::span<const std::uint8_t> mask;
   std::span<const float> shares;
 
-  /// Of points [first, end), added up in their order.
-  double seen(std::size_t first, std::size_t end) const {
-    double sum = 0;
-    for (std::size_t i = first; i < end; ++i)
-      sum += mask.empty() ? static_cast<double>(shares[i]) : mask[i] != 0 ? 1.0 : 0.0;
-    return sum;
+  double of(std::size_t i) const {
+    return mask.empty() ? static_cast<double>(shares[i]) : mask[i] != 0 ? 1.0 : 0.0;
   }
 };
+/// Of some points, added up in their order.
+struct Seen {
+  double sum = 0, cosines = 0;
+};
+Seen seen_of(const Sight& sight, std::size_t first, std::size_t end, std::span<const Facing> facings,
+             const glm::dvec3& to_sun) {
+  Seen seen;
+  for (std::size_t i = first; i < end; ++i) {
+    const double part = sight.of(i);
+    seen.sum += part;
+    if (part > 0 && !facings.empty()) seen.cosines += part * facings[i].cosine(to_sun);
+  }
+  return seen;
+}
 
 /// Adds what the batch sees of sun `number`.
-void add(const Sight& sight, const Batch& batch, std::span<const std::uint32_t> ends, const Sun& sun,
-         std::int32_t number, SunHours& out) {
+void add(const Sight& sight, const Batch& batch, std::span<const std::uint32_t> ends,
+         std::span<const Facing> facings, const Sun& sun, std::int32_t number, SunHours& out) {
   parallel::parallel_ranges(batch.end - batch.first, 1024, [&](std::size_t begin, std::size_t end) {
     for (std::size_t r = batch.first + begin; r < batch.first + end; ++r) {
       const std::uint32_t first = r == 0 ? 0 : ends[r - 1];
-      const double seen = sight.seen(first - batch.points_begin, ends[r] - batch.points_begin);
-      if (!(seen > 0)) continue;
-      out.sums[r] += sun.weight * seen;
-      if (!out.months.empty()) out.months[12 * r + static_cast<std::size_t>(sun.month)] += sun.weight * seen;
+      const Seen seen =
+          seen_of(sight, first - batch.points_begin, ends[r] - batch.points_begin, facings, sun.to_sun);
+      if (!(seen.sum > 0)) continue;
+      const double weights = sun.weight * seen.sum, light = sun.light_wh_m2 * seen.cosines;
+      out.sums[r] += weights;
+      if (!out.light.empty()) out.light[r] += light;
+      if (!out.months.empty())
+        out.months[12 * r + static_cast<std::size_t>(sun.month)] += out.light.empty() ? weights : light;
       if (out.first[r] < 0) out.first[r] = number;
       out.last[r] = number;
     }
@@ -97,8 +137,27 @@ void divide_by_points(std::span<const std::uint32_t> ends, SunHours& out) {
   for (std::size_t r = 0; r < ends.size(); ++r) {
     const double points = ends[r] - (r == 0 ? 0 : ends[r - 1]);
     out.sums[r] /= points;
+    if (!out.light.empty()) out.light[r] /= points;
     for (std::size_t m = 12 * r; m < std::min(12 * r + 12, out.months.size()); ++m) out.months[m] /= points;
   }
+}
+
+/// Of a batch; empty where no sun has light. Fails on a point that faces nowhere; `first` is the batch's
+/// first.
+Expected<std::vector<Facing>> facings_of(const Geometry& geometry, const QueryPoints& points,
+                                         std::span<const Sun> suns, std::size_t first) {
+  std::vector<Facing> facings;
+  if (std::ranges::none_of(suns, [](const Sun& sun) { return sun.light_wh_m2 > 0; })) return facings;
+  const TriangleView view = geometry.view();
+  for (std::size_t i = 0; i < points.positions.size(); ++i) {
+    facings.push_back(facing_of(view, points, i));
+    if (facings.back().normal == glm::dvec3(0.0) && !facings.back().both)
+      return base::fail(
+          "point {} lies on no face and has no normal, expected one (columns nx, ny, nz): light on a surface "
+          "depends on where it faces",
+          first + i);
+  }
+  return facings;
 }
 
 }  // namespace
@@ -110,14 +169,18 @@ Expected<SunHours> sun_hours(const Geometry& geometry, const QueryPoints& points
   SunHours out{std::vector<double>(count),
                std::vector<std::int32_t>(count, -1),
                std::vector<std::int32_t>(count, -1),
+               {},
                {}};
+  if (std::ranges::any_of(suns, [](const Sun& sun) { return sun.light_wh_m2 > 0; })) out.light.resize(count);
   if (config.months) out.months.resize(12 * count);
   PointTracer tracer;
   for (std::size_t first = 0; first < count;) {
     const Batch batch = next_batch(ends, first);
     const QueryPoints asked = part_of(points, batch.points_begin, batch.points_end - batch.points_begin);
+    const auto facings = facings_of(geometry, asked, suns, batch.points_begin);
+    if (!facings) return tl::unexpected(facings.error());
     const auto use = [&](std::size_t s, const Sight& sight) {
-      add(sight, batch, ends, suns[s], static_cast<std::int32_t>(s), out);
+      add(sight, batch, ends, *facings, suns[s], static_cast<std::int32_t>(s), out);
       const double part = static_cast<double>(batch.points_end - batch.points_begin) *
                           static_cast<double>(s + 1) / static_cast<double>(suns.size());
       if (progress) progress((batch.points_begin + part) / static_cast<double>(ends.back()));

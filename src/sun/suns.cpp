@@ -14,10 +14,53 @@ constexpr std::size_t most_suns = 1'000'000;
 
 /// Adds a sun if it stands above the horizon.
 void add_sun(const Sun& sun, Suns& suns) {
-  if (sun.to_sun.y > 0)
+  if (sun.to_sun.y > 0) {
     suns.list.push_back(sun);
-  else
+  } else {
     ++suns.below;
+    suns.lost_wh_m2 += sun.light_wh_m2;
+  }
+}
+
+/// What the sun is up of a time: how long, and the middle of it.
+struct Lit {
+  double minutes, middle_s;
+};
+Lit lit_part(const Place& place, double begin_s, double minutes, Refraction refraction) {
+  const auto is_up = [&](double part) {
+    return position(place, begin_s + 60 * minutes * part, refraction).altitude_deg > 0;
+  };
+  const int ups = is_up(0) + is_up(0.5) + is_up(1);
+  if (ups == 0 || ups == 3) return {ups == 0 ? 0 : minutes, begin_s + 30 * minutes};
+  const int parts = static_cast<int>(std::ceil(minutes));
+  int lit = 0;
+  double sum = 0;
+  for (int i = 0; i < parts; ++i)
+    if (const double part = (i + 0.5) / parts; is_up(part)) ++lit, sum += part;
+  return {minutes * lit / parts, begin_s + 60 * minutes * (lit > 0 ? sum / lit : 0.5)};
+}
+
+void add_hour(const Weather& weather, const WeatherHour& hour, const WeatherTimes& times, int steps,
+              Suns& suns) {
+  const double step_min = 60.0 / steps, begin_s = hour.begin_s - 60.0 * weather.zone_min;
+  std::vector<Lit> lit;
+  double minutes = 0;
+  for (int i = 0; i < steps; ++i) {
+    lit.push_back(lit_part(weather.place, begin_s + 60 * step_min * i, step_min, times.refraction));
+    minutes += lit.back().minutes;
+  }
+  if (minutes == 0) suns.lost_wh_m2 += hour.direct_wh_m2;
+  for (const Lit& part : lit) {
+    if (part.minutes == 0) {
+      ++suns.below;
+      continue;
+    }
+    const Position at = position(weather.place, part.middle_s, times.refraction);
+    add_sun({direction(at, times.north_deg), part.minutes, part.middle_s,
+             static_cast<int>(static_cast<unsigned>(hour.day.month())) - 1,
+             hour.direct_wh_m2 * part.minutes / minutes},
+            suns);
+  }
 }
 
 }  // namespace
@@ -32,7 +75,7 @@ Expected<Suns> suns_of(const SunTimes& times) {
         "found {} days of {} steps, expected at most {} in all; a longer --step or every Nth of the --days "
         "takes fewer",
         runs, steps, most_suns);
-  Suns suns{{}, true, times.zone_min, 0};
+  Suns suns{{}, SunKind::minutes, times.zone_min};
   for (int first = 0; first < days; first += times.days.every) {
     const int length = std::min(times.days.every, days - first);
     const Day day = times.days.first + std::chrono::days(first + (length - 1) / 2);
@@ -45,6 +88,19 @@ Expected<Suns> suns_of(const SunTimes& times) {
                month_of(utc_s, times.zone_min)},
               suns);
     }
+  }
+  return suns;
+}
+
+Expected<Suns> suns_of(const Weather& weather, const WeatherTimes& times) {
+  const int steps = std::max(1, static_cast<int>(std::lround(60 / times.step_min)));
+  Suns suns{{}, SunKind::radiation, weather.zone_min};
+  for (const WeatherHour& hour : weather.hours) {
+    if (times.days && !times.days->holds(hour.day)) continue;
+    add_hour(weather, hour, times, steps, suns);
+    if (suns.list.size() > most_suns)
+      return base::fail(
+          "found more than {} suns, expected fewer; a longer --step or fewer --days takes fewer", most_suns);
   }
   return suns;
 }

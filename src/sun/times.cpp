@@ -1,5 +1,6 @@
 #include "sun/times.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
@@ -17,6 +18,18 @@ using std::chrono::year_month_day;
 std::optional<int> digits_from(std::string_view text, std::size_t digits) {
   if (text.size() != digits || text.starts_with('-')) return std::nullopt;
   return base::number_in<int>(text);
+}
+
+/// A month or a day of it; of a month the first day or the last.
+std::optional<std::chrono::month_day> month_day_in(std::string_view text, bool is_last) {
+  const std::size_t dash = text.find('-');
+  const auto month = digits_from(text.substr(0, dash), std::min<std::size_t>({dash, text.size(), 2}));
+  const auto day =
+      dash == text.npos ? std::optional(is_last ? 31 : 1) : digits_from(text.substr(dash + 1), 2);
+  if (!month || !day) return std::nullopt;
+  const std::chrono::month_day found{std::chrono::month(static_cast<unsigned>(*month)),
+                                     std::chrono::day(static_cast<unsigned>(*day))};
+  return (dash == text.npos ? found.month().ok() : found.ok()) ? std::optional(found) : std::nullopt;
 }
 
 year_month_day local_day(double utc_s, int zone_min) {
@@ -60,6 +73,17 @@ Expected<Days> parse_days(const std::string& text) {
   }
   if (days.last < days.first) return base::fail("found {}, expected the first day before the last", text);
   return days;
+}
+
+Expected<Season> parse_season(const std::string& text) {
+  const std::string_view t(text);
+  const std::size_t colon = t.find(':');
+  const auto first = month_day_in(t.substr(0, colon), false),
+             last = colon == t.npos ? std::nullopt : month_day_in(t.substr(colon + 1), true);
+  if (!first || !last)
+    return base::fail(
+        "found {}, expected months or days of them from FIRST to LAST, like 4:10 or 04-15:10-31", text);
+  return Season{*first, *last};
 }
 
 Expected<int> parse_zone(const std::string& text) {

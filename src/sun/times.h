@@ -17,8 +17,19 @@ struct Days {
   int every = 1;
 };
 
+/// Days of every year, around its end where the first is the later one.
+struct Season {
+  std::chrono::month_day first{}, last{};
+
+  bool holds(std::chrono::month_day day) const {
+    return first <= last ? first <= day && day <= last : first <= day || day <= last;
+  }
+};
+
 Expected<Day> parse_day(const std::string& text);    ///< 2026-06-21, 1900 to 2100
 Expected<Days> parse_days(const std::string& text);  ///< A:B or A:B:N
+/// Months, 4:10, or days, 04-15:10-31; the last counts too.
+Expected<Season> parse_season(const std::string& text);
 /// Minutes that a zone's clocks are ahead of UTC: UTC, +02:00, -03:30; at most 14 hours.
 Expected<int> parse_zone(const std::string& text);
 

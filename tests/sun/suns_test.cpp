@@ -76,7 +76,7 @@ TEST(Suns, OfAFile) {
   ASSERT_EQ(angles.list.size(), 1u);
   EXPECT_EQ(angles.below, 1u);
   EXPECT_EQ(angles.list[0].weight, 2);
-  EXPECT_FALSE(angles.timed);
+  EXPECT_FALSE(angles.timed());
   const Suns quoted = suns_in("\"name, of it\",x,y,z\n\"a, 1\",0,1,0\n").value();
   ASSERT_EQ(quoted.list.size(), 1u);
   EXPECT_EQ(quoted.list[0].to_sun, glm::dvec3(0, 1, 0)) << "a comma within quotes belongs to its cell";

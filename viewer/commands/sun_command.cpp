@@ -62,9 +62,18 @@ Expected<SunScene> stage_for_sun(const SunOptions& options) {
 
 Expected<sun::Suns> find_suns(const SunOptions& options, const FileFrame& frame) {
   if (!options.suns.empty()) return sun::read_suns(options.suns, frame, options.north_deg);
-  return sun::suns_of({*options.place, *options.days, options.step_min, options.zone_min.value_or(0),
-                       options.north_deg,
-                       options.refraction ? sun::Refraction::standard : sun::Refraction::none});
+  const auto air = options.refraction ? sun::Refraction::standard : sun::Refraction::none;
+  if (options.weather.empty())
+    return sun::suns_of({*options.place, std::get<sun::Days>(*options.days), options.step_min.value_or(10),
+                         options.zone_min.value_or(0), options.north_deg, air});
+  const auto weather = sun::read_weather(options.weather);
+  if (!weather) return tl::unexpected(weather.error());
+  if (weather->missing > 0 && !options.quiet)
+    print_error("note: {} hours of the weather file have no direct or no diffuse light and count as dark\n",
+                weather->missing);
+  sun::WeatherTimes times{{}, options.step_min.value_or(60), options.north_deg, air};
+  if (options.days) times.days = std::get<sun::Season>(*options.days);
+  return sun::suns_of(*weather, times);
 }
 
 Expected<sun::Receivers> find_receivers(const SunOptions& options, const SunScene& scene) {
@@ -78,8 +87,12 @@ Expected<sun::Receivers> find_receivers(const SunOptions& options, const SunScen
 /// What a user should know of the suns and the scene.
 void print_sun_notes(const SunOptions& options, const sun::Suns& suns, const FrameGeometry& frame) {
   if (suns.list.empty()) print_error("note: no sun stands above the horizon, so there are no hours\n");
-  if (!suns.timed && suns.below > 0)
+  if (!suns.timed() && suns.below > 0)
     print_error("note: {} suns below the horizon do not count\n", suns.below);
+  if (suns.lost_wh_m2 > 0)
+    print_error(
+        "note: {:.3g} kWh/m2 of the direct light come while the sun is below the horizon and do not count\n",
+        suns.lost_wh_m2 / 1e3);
   constexpr double far_deg = 45;  // three hours
   if (options.place && !options.zone_min && std::abs(options.place->longitude_deg) > far_deg)
     print_error(
@@ -91,8 +104,9 @@ void print_sun_notes(const SunOptions& options, const sun::Suns& suns, const Fra
 }
 
 bool spans_months(const sun::Suns& suns) {
-  return suns.timed && std::ranges::any_of(
-                           suns.list, [&](const sun::Sun& s) { return s.month != suns.list.front().month; });
+  return suns.timed() && std::ranges::any_of(suns.list, [&](const sun::Sun& s) {
+           return s.month != suns.list.front().month;
+         });
 }
 
 Expected<sun::SunHours> count_hours(const SunOptions& options, const FrameGeometry& frame,
@@ -155,18 +169,19 @@ void print_summary(const SunOptions& options, const sun::Study& study, double ms
     const double value = sun::value_of(study, i);
     sum += counts * value, weight += counts, least = std::min(least, value), most = std::max(most, value);
   }
+  const char* what = sun::quantity_of(study.suns).name;
   const char* kinds[] = {"faces", "cells", "points"};
   print_out("{} {}, {} points, {} suns, {} {:.4g} to {:.4g}, mean {:.4g}, {:.2f} s\n",
             study.receivers.list.size(), kinds[static_cast<int>(study.receivers.kind)],
-            study.receivers.positions.size(), study.suns.list.size(), sun::what_of(study), least, most,
-            sum / weight, ms / 1e3);
+            study.receivers.positions.size(), study.suns.list.size(), what, least, most, sum / weight,
+            ms / 1e3);
   if (!options.model.empty() || !options.plan.empty())
-    print_out("colours: viridis, 0 to {:.4g} {}\n", chosen_scale(options, study).most, sun::what_of(study));
+    print_out("colours: viridis, 0 to {:.4g} {}\n", chosen_scale(options, study).most, what);
 }
 
 Expected<void> check_sun_outputs(const SunScene& scene, const SunOptions& options) {
   std::vector<std::filesystem::path> inputs = scene.staged.inputs;
-  for (const std::string& file : {options.suns, options.points})
+  for (const std::string& file : {options.suns, options.weather, options.points})
     if (!file.empty()) inputs.emplace_back(file);
   return check_files_apart(
       inputs, [&](const std::function<Expected<void>(const OutputName&)>& use) -> Expected<void> {

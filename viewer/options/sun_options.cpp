@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <variant>
 
 #include "base/fail.h"
 #include "base/lower_case.h"
@@ -27,6 +28,15 @@ Expected<sun::Place> parse_place_on_earth(const std::string& text) {
   if (*longitude < -180 || *longitude > 180)
     return base::fail("found the longitude {}, expected -180 to 180 degrees, east positive", *longitude);
   return sun::Place{*latitude, *longitude};
+}
+
+Expected<std::variant<sun::Days, sun::Season>> parse_days_or_season(const std::string& text) {
+  using Days = std::variant<sun::Days, sun::Season>;
+  const std::size_t colon = text.find(':');
+  constexpr std::size_t month_day = 5;
+  if (colon != text.npos && colon <= month_day)
+    return sun::parse_season(text).map([](auto s) { return Days(s); });
+  return sun::parse_days(text).map([](sun::Days days) { return Days(days); });
 }
 
 Expected<sun::Days> parse_one_day(const std::string& text) {
@@ -95,11 +105,15 @@ void add_suns(CLI::App& command, SunOptions& options) {
           .type_name("LAT,LON"),
       add_value(command, "--day", options.days, parse_one_day, "The day, from midnight to midnight of --zone")
           .type_name("YYYY-MM-DD"),
-      add_value(command, "--days", options.days, sun::parse_days,
-                "Days from A to B. Of each N days the middle one is computed\nand counts for all of them [1]")
+      add_value(
+          command, "--days", options.days, parse_days_or_season,
+          "Days from A to B. Of each N days the middle one is computed\nand counts for all of them [1]. "
+          "Of --epw month and day, 04-01:09-30")
           .type_name("A:B[:N]"),
-      add_value(command, "--step", options.step_min, parse_step,
-                "Minutes between suns, made to divide the day; each stands in\nthe middle of its step [10]")
+      add_value(
+          command, "--step", options.step_min, parse_step,
+          "Minutes between suns, made to divide the day; each stands in\nthe middle of its step [10; of "
+          "--epw 60]")
           .type_name("MIN"),
       add_value(command, "--zone", options.zone_min, sun::parse_zone,
                 "Hours and minutes ahead of UTC that days and times are given\n"
@@ -116,6 +130,10 @@ void add_suns(CLI::App& command, SunOptions& options) {
                "Suns in place of place and days: columns x, y, z (towards the\n"
                "sun, the file's axes) or azimuth, altitude; weight")
           .type_name("FILE.csv"),
+      add_text(command, "--epw", options.weather,
+               "A weather file in place of --place: its hours of direct light\n"
+               "and theirs on the surface, in kWh/m2")
+          .type_name("FILE.epw"),
       add_value(command, "--disc", options.disc_deg, parse_disc,
                 "The sun's diameter in degrees: its visible share counts. The\n"
                 "sun has 0.53; 0 is a point [0]")
@@ -156,14 +174,29 @@ void add_where(CLI::App& command, SunOptions& options) {
 
 Expected<void> check_suns(const CLI::App& command, const SunOptions& options) {
   if (was_given(command, "--day") && was_given(command, "--days")) return base::fail("--day excludes --days");
+  const bool season = options.days && std::holds_alternative<sun::Season>(*options.days);
   if (!options.suns.empty()) {
-    for (const char* name : {"--place", "--day", "--days", "--step", "--zone", "--refraction"})
+    for (const char* name : {"--epw", "--place", "--day", "--days", "--step", "--zone", "--refraction"})
       if (was_given(command, name)) return base::fail("--suns excludes {}", name);
     return {};
   }
+  if (!options.weather.empty()) {
+    for (const char* name : {"--place", "--day", "--zone"})
+      if (was_given(command, name)) return base::fail("--epw excludes {}", name);
+    if (options.days && !season)
+      return base::fail(
+          "--days: found years, expected months and days of --epw's, like 04-01:09-30; its months may come "
+          "from "
+          "several years");
+    if (options.step_min.value_or(60) > 60)
+      return base::fail("--step: found {} minutes, expected at most the hour of --epw", *options.step_min);
+    return {};
+  }
+  if (season) return base::fail("--days: found no year, expected one, like 2026-04-01:2026-09-30");
   if (!options.place || !options.days)
     return base::fail(
-        "found no suns, expected --place LAT,LON and --day YYYY-MM-DD (or --days), or --suns FILE.csv");
+        "found no suns, expected --place LAT,LON and --day YYYY-MM-DD (or --days), --epw FILE or --suns "
+        "FILE.csv");
   return {};
 }
 

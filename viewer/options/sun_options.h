@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "options/method_options.h"
 #include "options/scene_options.h"
@@ -14,12 +15,13 @@ namespace tenebra::viewer {
 struct SunOptions {
   SceneOptions scene;
   std::optional<sun::Place> place;
-  std::optional<sun::Days> days;
-  double step_min = 10;
+  std::optional<std::variant<sun::Days, sun::Season>> days;  ///< a season of a weather file's
+  std::optional<double> step_min;
   std::optional<int> zone_min;  ///< none: UTC
   double north_deg = 0;
   bool refraction = false;
-  std::string suns;  ///< a file in place of place and days; empty: not given
+  std::string suns;     ///< a file in place of place and days; empty: not given
+  std::string weather;  ///< an EPW file in place of the place; empty: not given
   double disc_deg = 0;
 
   sun::FaceChoice faces;
