@@ -38,7 +38,7 @@ MAY_INCLUDE = {
     "settings": {"base", "io", "scene", "formats", "gl", "shade", "stage", "render"},
     "session": {"base", "io", "scene", "formats", "shade", "stage", "render", "settings"},
     "bake": {"base", "math", "parallel", "scene", "points", "soft", "shade", "render"},
-    "sun": {"base", "io", "math", "parallel", "scene", "formats"},  # and points of one's own by their public header
+    "sun": {"base", "io", "math", "parallel", "scene", "points", "formats"},  # and points of one's own and tints by their public headers
 }
 
 # Rooms of a folder, lowest first: a room includes itself and rooms before it. "" is the folder's own files.

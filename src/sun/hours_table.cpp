@@ -41,11 +41,12 @@ std::vector<std::string> names_of(const Study& study) {
   if (kind != ReceiverKind::points) names.emplace_back("area_m2");
   names.emplace_back(quantity_of(study.suns).name);
   const bool light = study.suns.kind == SunKind::radiation;
+  if (study.sky != nullptr) names.emplace_back(light ? "sky_kwh_m2" : "sky");
   if (light) names.emplace_back("hours");
   if (study.suns.timed()) names.insert(names.end(), {"first_sun", "last_sun"});
   if (!study.hours.months.empty())
     for (int month = 1; month <= 12; ++month)
-      names.push_back(fmt::format("{}_{:02}", light ? "kwh_m2" : "minutes", month));
+      names.push_back(fmt::format("{}_{:02}", light ? "direct_kwh_m2" : "minutes", month));
   return names;
 }
 
@@ -81,7 +82,9 @@ void fill_row(const Study& study, std::size_t i, Cells& cells) {
   for (int axis = 0; axis < 3; ++axis) cells.push_back(coordinate(place[axis]));
   if (study.receivers.kind != ReceiverKind::points) cells.push_back(number(receiver.area_m2));
   cells.push_back(number(value_of(study, i)));
-  if (study.suns.kind == SunKind::radiation) cells.push_back(number(study.hours.sums[i] / hour_min));
+  const bool light = study.suns.kind == SunKind::radiation;
+  if (study.sky != nullptr) cells.push_back(number(study.sky->light[i] / (light ? kilo : 1)));
+  if (light) cells.push_back(number(study.hours.sums[i] / hour_min));
   if (study.suns.timed()) {
     cells.push_back(time_of(study, study.hours.first[i]));
     cells.push_back(time_of(study, study.hours.last[i]));
@@ -120,7 +123,8 @@ Quantity quantity_of(const Suns& suns) {
 double value_of(const Study& study, std::size_t i) {
   const SunHours& hours = study.hours;
   const bool light = study.suns.kind == SunKind::radiation;
-  const double amount = !light ? hours.sums[i] : hours.light.empty() ? 0 : hours.light[i];
+  double amount = !light ? hours.sums[i] : hours.light.empty() ? 0 : hours.light[i];
+  if (light && study.sky != nullptr) amount += study.sky->light[i];
   return amount / quantity_of(study.suns).per;
 }
 
@@ -147,6 +151,9 @@ std::string json_of(const Study& study) {
   if (const Quantity quantity = quantity_of(study.suns); *quantity.unit != 0)
     out += fmt::format("\"value\": \"{}\",\n\"unit\": \"{}\",\n", quantity.name, quantity.unit);
   out += fmt::format("\"model\": {},\n", base::json_string(model_of_suns(study.suns.kind)));
+  if (study.sky != nullptr)
+    out +=
+        fmt::format("\"sky\": \"equally bright, {} patches seen by their centres\",\n", study.sky->patches);
   if (study.suns.timed())
     out += fmt::format("\"zone\": {},\n", base::json_string(zone_text(study.suns.zone_min)));
   fmt::format_to(std::back_inserter(out), "\"columns\": [{}],\n\"rows\": [", names);

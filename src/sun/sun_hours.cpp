@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "base/fail.h"
 #include "parallel/parallel.h"
+#include "sun/glass.h"
 
 namespace tenebra::sun {
 namespace {
@@ -111,23 +113,34 @@ Expected<void> see_points(PointTracer& tracer, const Geometry& geometry, const Q
                           const Use& use) {
   std::vector<ShadowLight> lights;
   for (const Sun& sun : suns) lights.push_back({.directional = true, .to_light = glm::vec3(sun.to_sun)});
-  return tracer.hard_masks(
+  std::optional<Glass> glass;
+  if (config.glass != nullptr) glass.emplace(*config.glass, geometry, points);
+  std::vector<float> shares(glass ? points.positions.size() : 0);
+  bool whole = true;
+  auto done = tracer.hard_masks(
       geometry, points, lights, config.hard,
       [&](std::size_t sun, std::span<const std::uint8_t> mask) {
-        use(sun, {mask, {}});
+        for (std::size_t i = 0; i < shares.size(); ++i) shares[i] = mask[i] != 0 ? 1.0f : 0.0f;
+        whole = whole && (!glass || glass->dim(lights[sun], shares, stop));
+        use(sun, shares.empty() ? Sight{mask, {}} : Sight{{}, shares});
       },
       stop);
+  return whole ? done : base::stopped();
 }
 
 Expected<void> see_discs(PointTracer& tracer, const Geometry& geometry, const QueryPoints& points,
                          std::span<const Sun> suns, const HoursConfig& config, const StopFlag* stop,
                          const Use& use) {
   std::vector<float> shares(points.positions.size());
+  std::optional<Glass> glass;
+  if (config.glass != nullptr) glass.emplace(*config.glass, geometry, points);
   for (std::size_t s = 0; s < suns.size(); ++s) {
     const auto disc = make_sun(glm::vec3(suns[s].to_sun), config.disc_deg);
     if (!disc) return tl::unexpected(disc.error());
     auto done = tracer.soft_visibility(geometry, points, *disc, config.soft, shares, {}, stop);
     if (!done) return done;
+    if (glass && !glass->dim({.directional = true, .to_light = glm::vec3(suns[s].to_sun)}, shares, stop))
+      return base::stopped();
     use(s, {{}, shares});
   }
   return {};
@@ -142,12 +155,11 @@ void divide_by_points(std::span<const std::uint32_t> ends, SunHours& out) {
   }
 }
 
-/// Of a batch; empty where no sun has light. Fails on a point that faces nowhere; `first` is the batch's
+/// Of a batch. Fails on a point that faces nowhere; `first` is the batch's
 /// first.
 Expected<std::vector<Facing>> facings_of(const Geometry& geometry, const QueryPoints& points,
-                                         std::span<const Sun> suns, std::size_t first) {
+                                         std::size_t first) {
   std::vector<Facing> facings;
-  if (std::ranges::none_of(suns, [](const Sun& sun) { return sun.light_wh_m2 > 0; })) return facings;
   const TriangleView view = geometry.view();
   for (std::size_t i = 0; i < points.positions.size(); ++i) {
     facings.push_back(facing_of(view, points, i));
@@ -171,13 +183,14 @@ Expected<SunHours> sun_hours(const Geometry& geometry, const QueryPoints& points
                std::vector<std::int32_t>(count, -1),
                {},
                {}};
-  if (std::ranges::any_of(suns, [](const Sun& sun) { return sun.light_wh_m2 > 0; })) out.light.resize(count);
+  if (config.light) out.light.resize(count);
   if (config.months) out.months.resize(12 * count);
   PointTracer tracer;
   for (std::size_t first = 0; first < count;) {
     const Batch batch = next_batch(ends, first);
     const QueryPoints asked = part_of(points, batch.points_begin, batch.points_end - batch.points_begin);
-    const auto facings = facings_of(geometry, asked, suns, batch.points_begin);
+    const auto facings = config.light ? facings_of(geometry, asked, batch.points_begin)
+                                      : Expected<std::vector<Facing>>(std::vector<Facing>());
     if (!facings) return tl::unexpected(facings.error());
     const auto use = [&](std::size_t s, const Sight& sight) {
       add(sight, batch, ends, *facings, suns[s], static_cast<std::int32_t>(s), out);
@@ -195,9 +208,10 @@ Expected<SunHours> sun_hours(const Geometry& geometry, const QueryPoints& points
 }
 
 Expected<SunHours> sun_hours(const Geometry& geometry, const Receivers& receivers, const Suns& suns,
-                             const HoursConfig& config, const StopFlag* stop, const QueryProgress& progress) {
+                             HoursConfig config, const StopFlag* stop, const QueryProgress& progress) {
   std::vector<std::uint32_t> ends;
   for (const Receiver& receiver : receivers.list) ends.push_back(receiver.end);
+  config.light = suns.kind == SunKind::radiation;
   return sun_hours(geometry, receivers.points(), ends, suns.list, config, stop, progress);
 }
 

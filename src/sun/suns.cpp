@@ -98,6 +98,7 @@ Expected<Suns> suns_of(const Weather& weather, const WeatherTimes& times) {
   for (const WeatherHour& hour : weather.hours) {
     if (times.days && !times.days->holds(hour.day)) continue;
     add_hour(weather, hour, times, steps, suns);
+    suns.diffuse_wh_m2[hour.day] += hour.diffuse_wh_m2;
     if (suns.list.size() > most_suns)
       return base::fail(
           "found more than {} suns, expected fewer; a longer --step or fewer --days takes fewer", most_suns);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -34,6 +35,8 @@ struct Suns {
   int zone_min = 0;       ///< what the zone's clocks are ahead of UTC; days begin by them
   std::size_t below = 0;  ///< how many were left out because they stand below the horizon
   double lost_wh_m2 = 0;  ///< light of hours in which the sun stays there
+  /// What the sky sends onto an open horizontal surface on each day, with SunKind::radiation.
+  std::map<std::chrono::month_day, double> diffuse_wh_m2{};
 
   bool timed() const { return kind != SunKind::sums; }
 };

@@ -117,6 +117,11 @@ std::string time_text(double utc_s, int zone_min) {
                      second / 60 % 60, second % 60, zone_min == 0 ? "Z" : zone_text(zone_min));
 }
 
+std::chrono::month_day day_of_year(double utc_s, int zone_min) {
+  const year_month_day date = local_day(utc_s, zone_min);
+  return {date.month(), date.day()};
+}
+
 int month_of(double utc_s, int zone_min) {
   return static_cast<int>(static_cast<unsigned>(local_day(utc_s, zone_min).month())) - 1;
 }

@@ -36,7 +36,9 @@ Expected<int> parse_zone(const std::string& text);
 std::string zone_text(int zone_min);                ///< "UTC", "+02:00"
 std::string day_text(Day day);                      ///< "2026-06-21"
 std::string time_text(double utc_s, int zone_min);  ///< "2026-06-21T05:25:00+02:00", to the second
-/// 0 to 11, by the zone's clocks.
+/// By the zone's clocks.
+std::chrono::month_day day_of_year(double utc_s, int zone_min);
+/// 0 to 11, likewise.
 int month_of(double utc_s, int zone_min);
 
 }  // namespace tenebra::sun

@@ -115,10 +115,11 @@ TEST(Weather, LightOnASurface) {
   const std::vector<glm::dvec3> at(4, glm::dvec3(0, 40, 0));
   const std::vector<glm::vec3> normals{{2, 0, 0}, {0.3f, 0.4f, 0}, {-1, 0, 0}, {0, 0, 1}};
   const std::vector<std::uint32_t> ends{1, 2, 3, 4};
-  const auto points = sun_hours(geometry, {.positions = at, .normals = normals}, ends, suns.list, {});
+  const auto points =
+      sun_hours(geometry, {.positions = at, .normals = normals}, ends, suns.list, {.light = true});
   const double expected[] = {600, 1000, 0, 0};
   for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(points->light[i], expected[i], 1e-4) << i;
-  EXPECT_NE(sun_hours(geometry, {.positions = at}, ends, suns.list, {})
+  EXPECT_NE(sun_hours(geometry, {.positions = at}, ends, suns.list, {.light = true})
                 .error()
                 .message.find("point 0 lies on no face"),
             std::string::npos);
@@ -145,7 +146,7 @@ TEST(Weather, Tables) {
   const Suns suns = suns_of(*weather, {}).value();
   const SunHours hours = sun_hours(geometry_of(frame), faces, suns, {.months = true}).value();
   const std::string csv = csv_of({scene, frame, faces, suns, hours});
-  EXPECT_NE(csv.find("area_m2,kwh_m2,hours,first_sun,last_sun,kwh_m2_01,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("area_m2,kwh_m2,hours,first_sun,last_sun,direct_kwh_m2_01,"), std::string::npos) << csv;
   EXPECT_NE(csv.find(",2,2003-06-21T12:30:00Z,2003-07-21T12:30:00Z,0,0,0,0,0,0."), std::string::npos) << csv;
   const std::string json = json_of({scene, frame, faces, suns, hours});
   EXPECT_NE(json.find("\"unit\": \"kWh/m2\""), std::string::npos);

@@ -17,6 +17,7 @@
 #include "shell/stop_signals.h"
 #include "sun/hours_model.h"
 #include "sun/plan.h"
+#include "sun/sky.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -28,6 +29,9 @@ constexpr const char* sun_examples =
     "  tenebra sun park.glb --place 48.14,11.58 --days 2026-03-01:2026-09-30:7 --ground 0 --png "
     "park.png\n"
     "      a plan of a half year's hours on the ground, every seventh day computed\n"
+    "  tenebra sun house.obj --up-axis z --epw town.epw --sky tregenza --season tree=4:10 -o light.glb\n"
+    "      a year's light on each face in kWh/m2, direct and of the sky, behind a tree without leaves in "
+    "winter\n"
     "  tenebra sun house.glb --suns sky.csv --points windows.csv --json windows.json\n"
     "      the weights of the suns that each point sees\n"
     "\n"
@@ -35,9 +39,10 @@ constexpr const char* sun_examples =
     "horizon, of\n"
     "the scene's triangles and of nothing else: no clouds, no reflected light, no hills beyond the file. "
     "See-through\n"
-    "materials let all light pass; --no-cast NAME takes more out. Times are those of suns: each stands for "
-    "--step\n"
-    "minutes around it.\n"
+    "materials dim by their tint's luminance; --no-cast NAME takes nodes out. Times are those of suns: each "
+    "stands "
+    "for\n"
+    "--step minutes around it.\n"
     "Exit code: 0 done, 1 failed (one sentence says why), 124 the time of --timeout is up, 129, 130 or 143 "
     "stopped\n"
     "by a signal; files are then whole or absent.";
@@ -57,6 +62,7 @@ Expected<SunScene> stage_for_sun(const SunOptions& options) {
   SunScene scene{std::move(*staged), {}};
   const double time_s = options.scene.time_s.value_or(scene.staged.time_of_frame(0));
   session::evaluate(scene.staged.scene, options.scene.edits, scene.staged.clip, time_s, scene.input);
+  cast_see_through(options.method.render.see_through, scene.input.geometry);
   return scene;
 }
 
@@ -85,7 +91,7 @@ Expected<sun::Receivers> find_receivers(const SunOptions& options, const SunScen
 }
 
 /// What a user should know of the suns and the scene.
-void print_sun_notes(const SunOptions& options, const sun::Suns& suns, const FrameGeometry& frame) {
+void print_sun_notes(const SunOptions& options, const sun::Suns& suns) {
   if (suns.list.empty()) print_error("note: no sun stands above the horizon, so there are no hours\n");
   if (!suns.timed() && suns.below > 0)
     print_error("note: {} suns below the horizon do not count\n", suns.below);
@@ -99,8 +105,6 @@ void print_sun_notes(const SunOptions& options, const sun::Suns& suns, const Fra
         "note: days and times are UTC, where a day here begins {:.0f} hours off midnight; --zone +HH:MM "
         "gives others\n",
         std::abs(options.place->longitude_deg) / 15);
-  const auto panes = std::count(frame.see_through.begin(), frame.see_through.end(), 1);
-  if (panes > 0) print_error("note: {} see-through triangles let all light pass\n", panes);
 }
 
 bool spans_months(const sun::Suns& suns) {
@@ -109,21 +113,35 @@ bool spans_months(const sun::Suns& suns) {
          });
 }
 
-Expected<sun::SunHours> count_hours(const SunOptions& options, const FrameGeometry& frame,
-                                    const sun::Receivers& receivers, const sun::Suns& suns,
-                                    const StopFlag& stop) {
-  const auto geometry = Geometry::create(frame.positions, frame.triangles, frame.casts_shadow);
-  if (!geometry) return tl::unexpected(geometry.error());
+struct Counted {
+  sun::SunHours hours;
+  std::optional<sun::SkyLight> sky;
+};
+
+Expected<Counted> count_hours(const SunOptions& options, const SunScene& scene,
+                              const sun::Receivers& receivers, const sun::Suns& suns, const StopFlag& stop) {
+  const sun::SeasonalScene asked{scene.staged.scene, scene.input.geometry, options.seasonal};
   const render::RenderSettings settings = render_settings(options.method, {}, {});
+  const sun::HoursConfig config{.disc_deg = options.disc_deg,
+                                .months = spans_months(suns),
+                                .hard = settings.hard,
+                                .soft = settings.soft};
   Progress line(1, options.quiet);
-  const auto progress = [&](double done) { line.show_building("sun", done); };
-  Expected<sun::SunHours> hours;
+  const auto show = [&](const char* what) {
+    return [&line, what](double done) { line.show_building(what, done); };
+  };
+  Expected<Counted> counted;
   with_threads(settings.threads, [&] {
-    hours =
-        sun::sun_hours(*geometry, receivers, suns,
-                       {options.disc_deg, spans_months(suns), settings.hard, settings.soft}, &stop, progress);
+    auto hours = sun::hours_of(asked, receivers, suns, config, &stop, show("sun"));
+    if (!hours) return void(counted = tl::unexpected(hours.error()));
+    counted->hours = std::move(*hours);
+    if (options.sky_parts == 0) return;
+    auto sky = sun::sky_of(asked, receivers, suns, sun::sky_patches(options.sky_parts, options.north_deg),
+                           config, &stop, show("sky"));
+    if (!sky) return void(counted = tl::unexpected(sky.error()));
+    counted->sky = std::move(*sky);
   });
-  return hours;
+  return counted;
 }
 
 sun::ColourScale chosen_scale(const SunOptions& options, const sun::Study& study) {
@@ -204,21 +222,21 @@ Expected<int> study_sun(const SunOptions& options) {
   if (!scene) return tl::unexpected(scene.error());
   if (auto apart = check_sun_outputs(*scene, options); !apart) return tl::unexpected(apart.error());
   const Scene& staged = scene->staged.scene;
-  const FrameGeometry& frame = scene->input.geometry;
   const auto suns = find_suns(options, staged.frame);
   if (!suns) return tl::unexpected(suns.error());
   const auto receivers = find_receivers(options, *scene);
   if (!receivers) return tl::unexpected(receivers.error());
-  if (!options.quiet) print_warnings(staged.warnings), print_sun_notes(options, *suns, frame);
+  if (!options.quiet) print_warnings(staged.warnings), print_sun_notes(options, *suns);
   stop.be_orderly();
   base::Stopwatch watch;
-  const auto hours = count_hours(options, frame, *receivers, *suns, stop.flag());
-  if (is_stop(hours)) {
+  const auto counted = count_hours(options, *scene, *receivers, *suns, stop.flag());
+  if (is_stop(counted)) {
     print_error("tenebra: stopped before the hours were counted, nothing is written\n");
     return stop.exit_code();
   }
-  if (!hours) return tl::unexpected(hours.error());
-  const sun::Study study{staged, frame, *receivers, *suns, *hours};
+  if (!counted) return tl::unexpected(counted.error());
+  const sun::Study study{staged, scene->input.geometry, *receivers,
+                         *suns,  counted->hours,        counted->sky ? &*counted->sky : nullptr};
   if (auto written = write_hours(options, study); !written) return tl::unexpected(written.error());
   if (!options.quiet) print_summary(options, study, watch.lap_ms());
   return 0;

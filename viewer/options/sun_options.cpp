@@ -9,6 +9,7 @@
 #include "formats/format_list.h"
 #include "options/memory_option.h"
 #include "options/settings_names.h"
+#include "sun/sky.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -78,6 +79,17 @@ Expected<int> parse_per_face(const std::string& text) {
   return *number;
 }
 
+auto read_seasons(SunOptions& options) {
+  return [&options](const std::vector<std::string>& texts) -> Expected<void> {
+    for (const std::string& text : texts) {
+      auto caster = sun::parse_seasonal(text);
+      if (!caster) return tl::unexpected(caster.error());
+      options.seasonal.push_back(std::move(*caster));
+    }
+    return {};
+  };
+}
+
 void add_outputs(CLI::App& command, SunOptions& options) {
   const AddedOption added[] = {
       add_text(command, "--output,-o", options.model,
@@ -92,8 +104,8 @@ void add_outputs(CLI::App& command, SunOptions& options) {
       add_value(command, "--epsg", options.epsg, parse_epsg, "The coordinates' projection, for --tiff")
           .type_name("N"),
       add_value(command, "--full", options.full, parse_positive,
-                "Hours (or sum) that the brightest colour stands for; the same\n"
-                "for files that are compared [the most there is]")
+                "Hours (sum, kWh/m2) that the brightest colour stands for, the\n"
+                "same for files that are compared [the most there is]")
           .type_name("H")};
   for (const AddedOption option : added) option.group(output_group);
 }
@@ -105,15 +117,13 @@ void add_suns(CLI::App& command, SunOptions& options) {
           .type_name("LAT,LON"),
       add_value(command, "--day", options.days, parse_one_day, "The day, from midnight to midnight of --zone")
           .type_name("YYYY-MM-DD"),
-      add_value(
-          command, "--days", options.days, parse_days_or_season,
-          "Days from A to B. Of each N days the middle one is computed\nand counts for all of them [1]. "
-          "Of --epw month and day, 04-01:09-30")
+      add_value(command, "--days", options.days, parse_days_or_season,
+                "Days from A to B. Of each N days the middle one is computed\n"
+                "and counts for all of them [1]. Of --epw 04-01:09-30 or\nmonths, 4:9")
           .type_name("A:B[:N]"),
-      add_value(
-          command, "--step", options.step_min, parse_step,
-          "Minutes between suns, made to divide the day; each stands in\nthe middle of its step [10; of "
-          "--epw 60]")
+      add_value(command, "--step", options.step_min, parse_step,
+                "Minutes between suns, made to divide the day; each stands in\n"
+                "the middle of its step [10, of --epw 60]")
           .type_name("MIN"),
       add_value(command, "--zone", options.zone_min, sun::parse_zone,
                 "Hours and minutes ahead of UTC that days and times are given\n"
@@ -134,6 +144,15 @@ void add_suns(CLI::App& command, SunOptions& options) {
                "A weather file in place of --place: its hours of direct light\n"
                "and theirs on the surface, in kWh/m2")
           .type_name("FILE.epw"),
+      add_value(command, "--sky", options.sky_parts, sun::parse_sky,
+                "The light of an equally bright sky as well, by 145 patches or\n"
+                "about N * N times as many (2 to 8): with --epw that of its\n"
+                "hours, else as the share of an open sky's")
+          .type_name("tregenza|reinhart[:N]"),
+      add_texts(
+          command, "--season", read_seasons(options),
+          "A node and all below it cast only from month or day A to B,\nlike leaves=4:10; may be repeated")
+          .type_name("NODE=A:B"),
       add_value(command, "--disc", options.disc_deg, parse_disc,
                 "The sun's diameter in degrees: its visible share counts. The\n"
                 "sun has 0.53; 0 is a point [0]")
@@ -175,6 +194,10 @@ void add_where(CLI::App& command, SunOptions& options) {
 Expected<void> check_suns(const CLI::App& command, const SunOptions& options) {
   if (was_given(command, "--day") && was_given(command, "--days")) return base::fail("--day excludes --days");
   const bool season = options.days && std::holds_alternative<sun::Season>(*options.days);
+  if (!options.seasonal.empty() && !options.suns.empty())
+    return base::fail("--season: found suns without days, expected --place or --epw");
+  if (!options.seasonal.empty() && options.sky_parts > 0 && options.weather.empty())
+    return base::fail("--season with --sky: found no light of days, expected --epw");
   if (!options.suns.empty()) {
     for (const char* name : {"--epw", "--place", "--day", "--days", "--step", "--zone", "--refraction"})
       if (was_given(command, name)) return base::fail("--suns excludes {}", name);
@@ -250,7 +273,8 @@ void add_sun_options(CLI::App& command, SunOptions& options) {
   add_settings(command, settings::scene_table(), options.scene,
                {"scene", "up-axis", "unit", "offset", "no-cast", "cast-all", "cone-sides", "cutout-limit",
                 "texture-path", "file-root", "set-node", "time", "fps", "clip"});
-  add_settings(command, settings::method_table(), options.method, {"soft-memory", "threads", "simd"});
+  add_settings(command, settings::method_table(), options.method,
+               {"see-through", "soft-memory", "threads", "simd"});
 }
 
 Expected<void> settle_sun_options(const CLI::App& command, SunOptions& options) {

@@ -8,7 +8,7 @@
 
 #include "options/method_options.h"
 #include "options/scene_options.h"
-#include "sun/sun_hours.h"
+#include "sun/seasons.h"
 
 namespace tenebra::viewer {
 
@@ -23,6 +23,8 @@ struct SunOptions {
   std::string suns;     ///< a file in place of place and days; empty: not given
   std::string weather;  ///< an EPW file in place of the place; empty: not given
   double disc_deg = 0;
+  int sky_parts = 0;  ///< of sun::sky_patches; 0: no sky
+  std::vector<sun::SeasonalCaster> seasonal;
 
   sun::FaceChoice faces;
   std::optional<double> ground;  ///< height of a plane, in the file's unit
