@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   tenebra::bench::add_soft_command(program, run);
   tenebra::bench::add_ao_command(program, run);
   tenebra::bench::add_bake_command(program, run);
+  tenebra::bench::add_sun_command(program, run);
   tenebra::bench::add_trade_command(program, run);
   tenebra::bench::add_paper_command(program, run);
   tenebra::bench::add_promise_command(program, run);

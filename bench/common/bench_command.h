@@ -28,6 +28,7 @@ void add_hard_command(CLI::App& program, Run& run);
 void add_soft_command(CLI::App& program, Run& run);
 void add_ao_command(CLI::App& program, Run& run);
 void add_bake_command(CLI::App& program, Run& run);
+void add_sun_command(CLI::App& program, Run& run);
 void add_trade_command(CLI::App& program, Run& run);
 void add_paper_command(CLI::App& program, Run& run);
 void add_promise_command(CLI::App& program, Run& run);
