@@ -94,6 +94,22 @@ bool ask(query::TracerState& s, const QueryPoints& points, const query::Portion&
   return std::find(changed.begin(), changed.end(), 1) != changed.end();
 }
 
+/// Whether no light changes what is asked about: all points are on a side that they say.
+bool all_say_a_side(const QueryPoints& points) {
+  const auto none = [](const auto& list, auto value) {
+    return !list.empty() && std::find(list.begin(), list.end(), value) == list.end();
+  };
+  return none(points.triangles, no_triangle) && none(points.sides, std::int8_t{0});
+}
+
+/// The portion's part of the mask in the order of its points: four that follow each other are side by side.
+void take_mask(const query::Portion& portion, const ShadowMask& from, std::span<std::uint8_t> to) {
+  query::each_run(portion, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; i += 4)
+      std::copy_n(&from[portion.pixel(i)], std::min<std::size_t>(4, last - i), &to[i]);
+  });
+}
+
 /// Whether one portion holds all points, so that they need not be made again for another light.
 bool fits_one_portion(const QueryPoints& points) {
   return !points.positions.empty() && query::Portion(points, 0).count() == points.positions.size();
@@ -119,8 +135,7 @@ Expected<void> PointTracer::hard_mask(const Geometry& geometry, const QueryPoint
     s.begin(points, portion);
     ask(s, points, portion, triangles, light);
     if (!s.hard.trace_shadow_mask(s.seen, triangles, light, config, s.mask, stop)) return base::stopped();
-    query::each_point(portion,
-                      [&](std::size_t i, std::size_t pixel) { mask[portion.first() + i] = s.mask[pixel]; });
+    take_mask(portion, s.mask, mask.subspan(portion.first()));
     return {};
   });
 }
@@ -146,12 +161,14 @@ Expected<void> PointTracer::hard_masks(
   const TriangleView triangles = s.triangles();
   const query::Portion portion(points, 0);
   s.begin(points, portion);
+  const bool asked_once = all_say_a_side(points);
   for (std::size_t l = 0; l < lights.size(); ++l) {
     if (stop_requested(stop)) return base::stopped();
-    if (ask(s, points, portion, triangles, lights[l]) && config.variant == Variant::tiles)
+    const bool changed = (l == 0 || !asked_once) && ask(s, points, portion, triangles, lights[l]);
+    if (changed && config.variant == Variant::tiles)
       points::make_point_tiles(s.seen, triangles, *s.seen.tiles);
     if (!s.hard.trace_shadow_mask(s.seen, triangles, lights[l], config, s.mask, stop)) return base::stopped();
-    query::each_point(portion, [&](std::size_t i, std::size_t pixel) { mask[i] = s.mask[pixel]; });
+    take_mask(portion, s.mask, mask);
     use(l, mask);
   }
   s.seen.tiles.clear();

@@ -129,6 +129,32 @@ TEST(PointTracer, ManyLightsGiveTheMasksOfEach) {
   EXPECT_FALSE(many.hard_masks(geometry, points, lights, {}, compare).has_value());
 }
 
+// Which are asked about once for all lights; a count that no four points make up.
+TEST(PointTracer, ManyLightsGiveTheMasksOfEachForPointsThatSayTheirSides) {
+  Seen seen(4);
+  const std::size_t count = seen.sides.size() / 4 * 4 - 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (seen.visible.triangles[i] == no_triangle) seen.visible.triangles[i] = 0;
+    seen.sides[i] = i % 7 == 0 ? -1 : 1;
+  }
+  QueryPoints points = seen.points(0);
+  points.positions = points.positions.first(count), points.triangles = points.triangles.first(count);
+  points.sides = points.sides.first(count);
+  const std::vector<ShadowLight> lights{{.directional = true, .to_light = {0.4f, 1, 0.2f}},
+                                        {.directional = true, .to_light = {-0.6f, -1, 0.2f}},
+                                        {.position = {0.2f, 0.9f, -0.3f}}};
+  const Geometry geometry = geometry_of(seen.soup);
+  PointTracer many, single;
+  std::size_t lit = 0;
+  const auto compare = [&](std::size_t light, std::span<const std::uint8_t> mask) {
+    const auto expected = hard_mask(single, geometry, points, lights[light]);
+    EXPECT_TRUE(std::equal(mask.begin(), mask.end(), expected.begin(), expected.end())) << light;
+    lit += static_cast<std::size_t>(std::count(mask.begin(), mask.end(), 255));
+  };
+  ASSERT_TRUE(many.hard_masks(geometry, points, lights, {}, compare).has_value());
+  EXPECT_GT(lit, 0u);
+}
+
 TEST(PointTracer, SoftFractionsAreThoseOfTheTracer) {
   const Seen seen(3);
   const AreaLight light = make_rectangle_light({0.1f, 0.9f, -0.2f}, {0.2f, 0, 0}, {0, 0, 0.2f}).value();
