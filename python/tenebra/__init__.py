@@ -3,11 +3,11 @@
 Lengths are metres, space is right-handed. Arrays are numpy's: a contiguous array of the documented type is read in
 place, any other is converted. Answers are new arrays of the points' shape.
 
-Triangles are given as an array (n, 3, 3) of corners, as a pair (positions (v, 3), indices (n, 3)), or as a
-Geometry, which keeps them for many calls. An offset of whole numbers is subtracted from float64 coordinates far from
-the origin (maps), from points and from lights; then positions are rounded once to float32 and taken as exact. Points
-are float64. Calls that ask about points, and render, release Python's lock, end on
-Ctrl-C, and take the keywords
+Triangles are given as an array (n, 3, 3) of corners, as a pair (positions (v, 3), indices (n, 3)), as an object with
+.vertices and .faces (trimesh), or as a Geometry, which keeps them for many calls. An offset of whole numbers is
+subtracted from float64 coordinates far from the origin (maps), from points and from lights; then positions are rounded
+once to float32 and taken as exact. Points are float64. Calls that ask about points, and render, release Python's lock,
+end on Ctrl-C, and take the keywords
 
 threads: the largest number of threads to use, 1 to 1024; 0: all cores. Answers do not depend on it.
 progress: called on this thread now and then with the part that is done, 0 to 1.
@@ -29,7 +29,7 @@ from ._arrays import _indices, _numbers, _of_each, _positions, _rows, _vector
 
 __version__: str = _core.version
 __all__ = ["AreaLight", "DirectionalLight", "Geometry", "PointLight", "Scene", "Tracer", "ambient_occlusion",
-           "hard_mask", "no_triangle", "soft_visibility"]
+           "hard_mask", "no_triangle", "soft_visibility", "sun"]
 
 no_triangle: int = _core.no_triangle
 """Stands for no triangle: for a point in the air, or a pixel that sees the background."""
@@ -87,6 +87,8 @@ def _geometry(triangles: Any) -> Geometry:
         return triangles
     if isinstance(triangles, tuple) and len(triangles) == 2:
         return Geometry(*triangles)
+    if hasattr(triangles, "vertices") and hasattr(triangles, "faces"):
+        return Geometry(triangles.vertices, triangles.faces)
     return Geometry.from_corners(triangles)
 
 
@@ -345,6 +347,11 @@ class Scene:
         return self._core.name
 
     @property
+    def up_axis(self) -> str:
+        """The file's axis that points up, "y" or "z"."""
+        return self._core.up_axis
+
+    @property
     def frames(self) -> int:
         """How many frames the animation has; 1 without an animation."""
         return self._core.frames
@@ -412,3 +419,10 @@ class Scene:
         position, direction (the way it shines), half_x and half_y (of rectangles and discs), in the units of the file,
         color, intensity, range_m (metres; 0: unbounded), outer_cone_rad."""
         return self._core.lights(self._core.time_of(frame) if time is None else time)
+
+    def sun_hours(self, suns: Any, weights: Any = None, **options: Any) -> Dict[str, np.ndarray]:
+        """What faces or the ground see of many suns: tenebra.sun.scene_sun_hours describes the keywords."""
+        return sun.scene_sun_hours(self, suns, weights, **options)
+
+
+from . import sun  # noqa: E402  it needs what stands above

@@ -19,7 +19,7 @@ def _rows(name: str, value: Any, dtype: Any, shape: str = "(n, 3)") -> np.ndarra
     array = _numbers(name, value, dtype)
     if array.ndim < 1 or array.shape[-1] != 3:
         raise ValueError(f"{name}: found the shape {array.shape}, expected {shape}")
-    return np.require(array, requirements="CA")
+    return np.require(array, requirements=("C", "A"))
 
 
 def _positions(name: str, value: Any, shape: str = "(n, 3)") -> np.ndarray:
@@ -35,7 +35,7 @@ def _indices(name: str, value: Any) -> np.ndarray:
         if array.size and (array.min() < 0 or array.max() > _core.no_triangle):
             raise ValueError(f"{name}: found numbers from {array.min()} to {array.max()}, expected 0 to {_core.no_triangle}")
         array = array.astype(np.uint32)
-    return np.require(array, requirements="CA")
+    return np.require(array, requirements=("C", "A"))
 
 
 def _vector(name: str, value: Any) -> List[float]:

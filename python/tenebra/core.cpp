@@ -10,4 +10,5 @@ PYBIND11_MODULE(_core, module) {
   module.attr("no_triangle") = tenebra::no_triangle;
   tenebra::python::add_queries(module);
   tenebra::python::add_scenes(module);
+  tenebra::python::add_suns(module);
 }

@@ -12,6 +12,7 @@
 #include <type_traits>
 #include <utility>
 
+#include <tenebra/queries.h>
 #include <tenebra/threads.h>
 #include "beside.h"
 #include "loaded_scene.h"
@@ -27,6 +28,10 @@ template <class T>
 T checked(Expected<T>&& result) {
   if (!result) throw py::value_error(result.error().message);
   if constexpr (!std::is_void_v<T>) return std::move(*result);
+}
+
+inline QueryProgress noted_in(Work& work) {
+  return [&work](double done) { work.done = done; };
 }
 
 /// Runs body(work), which gives Expected<void>, beside Python: signals and `report` are seen to every 20 ms.

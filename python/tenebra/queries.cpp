@@ -8,34 +8,15 @@
 #include "long_calls.h"
 #include "math/whole_origin.h"
 #include "module_parts.h"
+#include "point_arrays.h"
 
 namespace tenebra::python {
 namespace {
-
-struct PointArrays {
-  Array<double> positions;
-  MaybeArray<std::uint32_t> triangles;
-  MaybeArray<float> normals;
-  MaybeArray<std::int8_t> sides;
-  int width = 0;
-
-  QueryPoints query() const {
-    return {.positions = vectors<glm::dvec3>(positions),
-            .triangles = values(triangles),
-            .normals = vectors<glm::vec3>(normals),
-            .sides = values(sides),
-            .width = width};
-  }
-};
 
 struct Tracer {
   PointTracer points;
   Beside beside;
 };
-
-QueryProgress noted_in(Work& work) {
-  return [&work](double done) { work.done = done; };
-}
 
 /// A light without an area, its place in the caller's coordinates.
 struct PlacedLight {

@@ -191,6 +191,9 @@ void add_scenes(py::module_& module) {
                              [](const Loaded& scene) {
                                return py::make_tuple(scene.staged().size.width, scene.staged().size.height);
                              })
+      .def_property_readonly(
+          "up_axis",
+          [](const Loaded& scene) { return scene.staged().scene.frame.up == UpAxis::z ? "z" : "y"; })
       .def_property_readonly("name", [](const Loaded& scene) { return scene.staged().scene.name; })
       .def_property_readonly("warnings", [](const Loaded& scene) { return scene.staged().scene.warnings; });
 }

@@ -11,7 +11,7 @@ EXAMPLES = pathlib.Path(__file__).resolve().parents[1] / "examples"
 
 @pytest.mark.parametrize("name, options, said", [
     ("shadow_map_errors", ["--size", "96"], "dark in light"),
-    ("facade_sun", ["--step", "60", "--places", "40"], "hours of sun in the mean"),
+    ("sun_hours", ["--step", "60", "--cell", "2"], "3.6 hours of sun on the ground"),
     ("frame_times", ["--frames", "3"], "3 frames: median"),
 ])
 def test_example(name, options, said, tmp_path):
