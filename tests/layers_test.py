@@ -85,7 +85,7 @@ PLAIN_WINDOW_ROOMS = {"motion": set(), "frames": {"motion"}}
 CONTAINED_IN_VIEWER = [
     (r"\bImGui\b|imgui|GLFW|glfw", "the window", ("window/",)),
     (r"GLFW|glfw[A-Z3]", "GLFW", ("window/glfw_window.cpp",)),
-    (r"\bstd::(thread|jthread|mutex|atomic|condition_variable|barrier)\b", "a thread", ("window/frames/render_worker.", "window/frames/explainer.", "window/frames/trade_search.", "shell/stop_signals.", "shell/draw_limit.", "shell/last_words.")),
+    (r"\bstd::(thread|jthread|mutex|atomic|condition_variable|barrier)\b", "a thread", ("window/frames/render_worker.", "window/frames/explainer.", "window/frames/one_job.", "shell/stop_signals.", "shell/draw_limit.", "shell/last_words.")),
     (r"\bgl[A-Z]\w*\(", "an OpenGL call", ()),
 ]
 

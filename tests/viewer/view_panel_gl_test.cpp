@@ -149,7 +149,7 @@ int pixels_unlike(const io::Image8& a, const io::Image8& b) {
 
 TEST(ViewPanel, IsDrawnWithoutADisplay) {
   const TemporaryFolder folder;
-  HeadlessViewer headless(testing::write_moving_scene(folder), {1280, 720});
+  HeadlessViewer headless(testing::write_moving_scene(folder), {1280, 760});
   ASSERT_TRUE(headless.wait_for_first_picture());
   headless.turn();
   const io::Image8 before = headless.pixels();

@@ -113,6 +113,12 @@ void EventReport::explained(const PictureAnswer& answer) {
     json["material"] = answer.pixel.seen.material;
   }
   json["lights"] = std::move(lights);
+  if (!answer.day.empty()) {
+    Json& day = json["day"] = Json::array();
+    for (const render::LightExplanation& sun : answer.day)
+      day.push_back(sun.occluder ? fmt::format("node {}", sun.occluder->node)
+                                 : sights[static_cast<std::size_t>(sun.sight)]);
+  }
   line(dump(json));
 }
 
@@ -145,6 +151,8 @@ void EventReport::state(const ViewState& state) {
                                  {"selected_light", state.selected_light},
                                  {"selected_node", state.selected_node},
                                  {"selected_material", state.selected_material},
+                                 {"sun", fmt::format("{} {:02}:{:02}", sun::day_text(state.sun.day),
+                                                     state.sun.minute / 60, state.sun.minute % 60)},
                                  {"panel", state.panel},
                                  {"help", state.help}});
   if (text == last_state_) return;

@@ -25,13 +25,19 @@ void PixelAnswers::ask(QuestionKind kind, const std::shared_ptr<const Picture>& 
   const glm::ivec2 pixel = pixel_at(place, {image.width, image.height});
   if (pixel.x < 0 || pixel.y < 0 || pixel.x >= image.width || pixel.y >= image.height) return;
   if (kind == QuestionKind::explain) asked_ = picture, place_ = place;
-  explainer_.ask({kind, picture, place, pixel, std::chrono::steady_clock::now()});
+  explainer_.ask({kind, picture, place, pixel, suns_, std::chrono::steady_clock::now()});
 }
 
 void PixelAnswers::follow(const std::shared_ptr<const Picture>& picture) {
   if (!asked_ || asked_ == picture) return;
   if (!same_place(*picture, *asked_)) return close();
   ask(QuestionKind::explain, picture, place_);
+}
+
+void PixelAnswers::explain_suns(std::shared_ptr<const sun::Suns> suns) {
+  if (suns == suns_) return;
+  suns_ = std::move(suns);
+  if (asked_) ask(QuestionKind::explain, asked_, place_);
 }
 
 void PixelAnswers::show(PictureAnswer answer) {

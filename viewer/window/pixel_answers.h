@@ -19,6 +19,8 @@ public:
   /// A picture from the same place, perhaps of another size, is asked the same again; a picture from another
   /// place ends the question.
   void follow(const std::shared_ptr<const Picture>& picture);
+  /// The suns of a day, which answers explain as well, from now on; null: none. What is shown is asked again.
+  void explain_suns(std::shared_ptr<const sun::Suns> suns);
   std::vector<Expected<PictureAnswer>> take() { return explainer_.take_answers(); }
 
   /// Why a pixel is dark; null: nobody has asked, or the answer has not come.
@@ -31,6 +33,7 @@ private:
   std::shared_ptr<const Picture> asked_;  // why a pixel is dark; null: nobody asks
   glm::dvec2 place_{0.0};                 // of that pixel
   std::optional<PictureAnswer> shown_;
+  std::shared_ptr<const sun::Suns> suns_;
   Explainer explainer_;
 };
 

@@ -10,6 +10,7 @@
 #include "session/staged_scene.h"
 #include "window/files/user_settings.h"
 #include "window/frames/frame_request.h"
+#include "window/frames/sun_day.h"
 #include "window/panels/open_dialog.h"
 #include "window/panels/scene_tree.h"
 
@@ -51,6 +52,8 @@ struct ViewState {
   bool light_handles = true;
   Overlay overlay = Overlay::none;
   float overlay_opacity = 0.85f;
+
+  SunDay sun = sun_today();
 
   SceneDisplay display;             ///< the scene's, with exposures once they were asked for
   stage::SceneEdits metered_edits;  ///< that display's exposures are of

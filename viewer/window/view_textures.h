@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "window/frames/frame_request.h"
+#include "window/frames/sun_counter.h"
 #include "window/view_state.h"
 #include "window/window_gl.h"
 
@@ -11,7 +12,7 @@ namespace tenebra::viewer {
 
 class ViewTextures {
 public:
-  explicit ViewTextures(WindowGl& gl) : a(gl), b(gl), difference(gl), overlay(gl) {}
+  explicit ViewTextures(WindowGl& gl) : a(gl), b(gl), difference(gl), overlay(gl), hours(gl) {}
 
   /// Uploads what `state` shows of `picture`, if that has changed; `exact`: it is shown pixel by pixel.
   void show(const std::shared_ptr<const Picture>& picture, const ViewState& state, bool exact) {
@@ -27,10 +28,18 @@ public:
     if (picture->overlay.kind != Overlay::none) overlay.show(picture->overlay.image, !exact);
   }
 
-  PictureTexture a, b, difference, overlay;
+  /// The same of hours of sun.
+  void show_hours(const std::shared_ptr<const CountedSun>& counted) {
+    if (!counted || counted == hours_) return;
+    hours_ = counted;
+    hours.show(counted->image, true);
+  }
+
+  PictureTexture a, b, difference, overlay, hours;
 
 private:
   std::tuple<std::shared_ptr<const Picture>, CompareView, int, bool> shown_;
+  std::shared_ptr<const CountedSun> hours_;
 };
 
 }  // namespace tenebra::viewer

@@ -28,7 +28,8 @@ Viewer::Viewer(ViewOptions options, WindowGl& gl, EventReport report, const std:
       report_(std::move(report)),
       textures_(gl),
       recording_(std::exchange(options_.record, std::nullopt)),
-      search_(options_.raster, wake),
+      search_(trade_work(options_.raster), wake),
+      counter_(count_sun, wake),
       worker_(worker_raster(options_), gl.is_software(), wake),
       answers_(wake) {
   state_.slots = {options_.method, options_.compare.value_or(options_.method)};
@@ -48,7 +49,8 @@ Viewer::Viewer(ViewOptions options, WindowGl& gl, EventReport report, const std:
 
 double Viewer::sleep_s() const {
   const WorkerStatus status = worker_.status();
-  const bool moves = status.loading || status.drawing || !messages_.empty() || search_.status().running;
+  const bool moves = status.loading || status.drawing || !messages_.empty() || search_.status().running ||
+                     counter_.status().running;
   return pace_.sleep_s({status.hurries, moves, worker_.look_again_s()}, now());
 }
 
@@ -197,6 +199,7 @@ void Viewer::update() {
   actions_.retry = false;
   worker_.stop_if_outdated();
   follow_search();
+  follow_sun();
   const WorkerStatus status = worker_.status();
   if (status.slow && pace_.since_drawn_s(now()) > progress_s) pace_.ask(1);
   if (messages_.forget_old(now())) pace_.ask(1);
@@ -226,7 +229,10 @@ void Viewer::act() {
     sent_.clock = state_.clock;
     say("Cancelled: this is the last finished picture. Press R to compute the new one.");
   }
-  if (actions.cancel && !worker_.status().drawing) search_.stop();
+  if (actions.cancel && !worker_.status().drawing) {
+    search_.stop();
+    if (counts_) state_.sun.colours = false;
+  }
   if (actions.picture_shot) save_picture();
   if (actions.window_shot) window_shot_ = true, pace_.ask(1);
   if (actions.toggle_log) toggle_log();
@@ -294,6 +300,10 @@ void Viewer::draw(float scale, float pixels_a_unit) {
   Ui ui{state_, actions_, marks_, picture_.get(), history_, keys_, worker_.status(), log, scale, answer()};
   ui.trade = search_.status();
   if (state_.scene) ui.trade_subject = trade_subject(state_, place_, now());
+  ui.sun = counter_.status();
+  const auto hours = shown_hours();
+  ui.hours = hours.get();
+  textures_.show_hours(hours);
   handle_keys(ui, std::min(seconds, 0.1f));
   const ImGuiConfigFlags nav = ImGuiConfigFlags_NavEnableKeyboard;
   io.ConfigFlags = state_.keys_in_panel ? io.ConfigFlags | nav : io.ConfigFlags & ~nav;

@@ -82,6 +82,8 @@ private:
   void toggle_recording();
   void toggle_trade();
   void follow_search();
+  void follow_sun();
+  std::shared_ptr<const CountedSun> shown_hours() const;  ///< that fit what is shown; null: none do
   void end_recording(const std::string& how);
   // What is drawn.
   Ui ui_at_rest();  ///< for what the viewer does itself, not the hand
@@ -120,6 +122,11 @@ private:
 
   bool searches_ = false;  // as the last turn of the loop found it
   TradeSearch search_;
+  std::shared_ptr<const sun::Suns> suns_;  // of the day that the panel shows; null: it shows none
+  SunDay suns_of_;
+  std::optional<SunQuestion> counting_;  // the last that was begun
+  bool counts_ = false;                  // as far as this thread knows
+  SunCounter counter_;
   RenderWorker worker_;   // last: its thread ends first
   PixelAnswers answers_;  // and before that this one's
 };

@@ -15,7 +15,7 @@ void Viewer::toggle_trade() {
   state_.clock.pause(now());
   FrameRequest request = view_request(state_, place_, std::nullopt, now());
   request.a = render_settings(state_.method(), place_, state_.display);
-  search_.begin(std::move(request), trade_subject(state_, place_, now()));
+  search_.begin({std::move(request), trade_subject(state_, place_, now())});
 }
 
 void Viewer::follow_search() {

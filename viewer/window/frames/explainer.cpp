@@ -45,16 +45,29 @@ private:
   render::FrameInput input_;
 };
 
+std::vector<render::DrawnLight> lights_of(const sun::Suns& suns) {
+  std::vector<render::DrawnLight> lights;
+  for (const sun::Sun& sun : suns.list) {
+    render::DrawnLight& light = lights.emplace_back();
+    light.light.type = LightType::directional;
+    light.placed.direction = glm::vec3(-sun.to_sun);
+  }
+  return lights;
+}
+
 PictureAnswer answer(PictureQuestion question, PictureGeometry& geometries) {
   const Picture& picture = *question.picture;
   const PictureEvidence& evidence = picture.evidence;
   const FrameGeometry& geometry = geometries.of(picture);
-  std::span<const render::DrawnLight> lights = evidence.lights;
-  if (question.kind == QuestionKind::pivot) lights = {};
+  const auto explained = [&](std::span<const render::DrawnLight> lights) {
+    return render::explain_pixel({picture.scene->scene, geometry, picture.view, evidence.ids,
+                                  picture.a.result.image.width, lights, evidence.fractions, evidence.settings,
+                                  question.pixel});
+  };
   PictureAnswer out;
-  out.pixel = render::explain_pixel({picture.scene->scene, geometry, picture.view, evidence.ids,
-                                     picture.a.result.image.width, lights, evidence.fractions,
-                                     evidence.settings, question.pixel});
+  const bool explains = question.kind == QuestionKind::explain;
+  out.pixel = explained(explains ? std::span(evidence.lights) : std::span<const render::DrawnLight>());
+  if (explains && question.suns) out.day = explained(lights_of(*question.suns)).lights;
   if (!out.pixel.background) out.seen = corners_of(geometry, out.pixel.seen.triangle);
   for (const render::LightExplanation& light : out.pixel.lights)
     out.occluders.push_back(light.occluder ? corners_of(geometry, light.occluder->triangle)

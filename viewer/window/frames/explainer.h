@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "render/explanation.h"
+#include "sun/suns.h"
 #include "window/frames/frame_request.h"
 
 namespace tenebra::viewer {
@@ -21,8 +22,9 @@ enum class QuestionKind { explain, pivot };
 struct PictureQuestion {
   QuestionKind kind = QuestionKind::explain;
   std::shared_ptr<const Picture> picture;
-  glm::dvec2 place{0.0};  ///< in the picture, 0 to 1 from its left and top
-  glm::ivec2 pixel{0};    ///< of `picture` at `place`
+  glm::dvec2 place{0.0};                  ///< in the picture, 0 to 1 from its left and top
+  glm::ivec2 pixel{0};                    ///< of `picture` at `place`
+  std::shared_ptr<const sun::Suns> suns;  ///< of a day, to explain as well; null: none
   AnimationClock::Wall asked{};
 };
 
@@ -31,9 +33,10 @@ using TriangleCorners = std::array<glm::vec3, 3>;
 struct PictureAnswer {
   PictureQuestion question;
   render::PixelExplanation pixel;
-  TriangleCorners seen{};                  ///< of the triangle that the pixel sees, world space
-  std::vector<TriangleCorners> occluders;  ///< of each light's; meaningless where it has none
-  double ms = 0;                           ///< from the question
+  TriangleCorners seen{};                     ///< of the triangle that the pixel sees, world space
+  std::vector<TriangleCorners> occluders;     ///< of each light's; meaningless where it has none
+  std::vector<render::LightExplanation> day;  ///< one for each of the question's suns
+  double ms = 0;                              ///< from the question
 };
 
 /// The pixel at a place of a picture.

@@ -1,17 +1,12 @@
 // Tries settings on the present view, as `tenebra trade` does, on a thread of its own: the window goes on.
 #pragma once
 
-#include <condition_variable>
-#include <functional>
-#include <memory>
-#include <mutex>
 #include <optional>
-#include <string>
-#include <thread>
 
 #include "options/settings_names.h"
 #include "trade/trade_run.h"
 #include "window/frames/frame_request.h"
+#include "window/frames/one_job.h"
 
 namespace tenebra::viewer {
 
@@ -42,48 +37,16 @@ struct FoundTrade {
   TradeResult result;
 };
 
-struct TradeStatus {
-  bool running = false;
-  double done = 0;  ///< 0..1
-  double elapsed_s = 0;
-  std::shared_ptr<const FoundTrade> found;  ///< the last; null: none yet
+/// What is tried, and for what.
+struct TradeWork {
+  FrameRequest request;  ///< the time is what its clock shows when it was asked
+  TradeSubject subject;
 };
 
-class TradeSearch {
-public:
-  /// `wake` is called on the search's thread when it is over.
-  TradeSearch(const render::RasterChoice& raster, std::function<void()> wake);
-  ~TradeSearch();  ///< stops what is under way and waits for it
-  TradeSearch(const TradeSearch&) = delete;
-  TradeSearch& operator=(const TradeSearch&) = delete;
+using TradeStatus = JobStatus<FoundTrade>;
+using TradeSearch = OneJob<TradeWork, FoundTrade>;
 
-  /// Begins anew, at the time that the request's clock shows when it was asked.
-  void begin(FrameRequest request, TradeSubject subject);
-  void stop();  ///< soon; nothing is found
-  TradeStatus status() const;
-  /// Why the last search found nothing, once; empty: it was stopped, or it has found something.
-  std::string take_failure();
-
-private:
-  struct Work {
-    FrameRequest request;
-    TradeSubject subject;
-  };
-  void run();
-  Expected<TradeResult> search(const FrameRequest& request);
-
-  const render::RasterChoice raster_;
-  const std::function<void()> wake_;
-  StopFlag stop_;
-
-  mutable std::mutex mutex_;  // of all below
-  std::condition_variable changed_;
-  std::optional<Work> work_;
-  TradeStatus status_;
-  std::chrono::steady_clock::time_point begun_{};
-  std::string failure_;
-  bool quit_ = false;
-  std::thread thread_;  // last: it uses all of the above
-};
+/// The work of a search, on contexts of `raster`.
+TradeSearch::Work trade_work(const render::RasterChoice& raster);
 
 }  // namespace tenebra::viewer

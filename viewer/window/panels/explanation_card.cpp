@@ -13,24 +13,8 @@ constexpr ImU32 free_way = IM_COL32(255, 226, 130, 255);
 constexpr ImU32 blocked_way = IM_COL32(255, 116, 84, 255);
 constexpr float card_px = 380;
 
-/// A segment of the scene as a line in the window, cut where it is behind the eye.
-void line(const Ui& ui, const Stage& stage, glm::dvec3 a, glm::dvec3 b, ImU32 color, float thickness) {
-  const ViewRays& view = ui.picture->view;
-  glm::dvec3 from = pixel_of(view, a), to = pixel_of(view, b);
-  constexpr double nearest = 1e-3;  // in units of the distance to the picture's plane
-  if (from.z < nearest && to.z < nearest) return;
-  if (!view.orthographic && (from.z < nearest || to.z < nearest)) {
-    const glm::dvec3 cut = a + (b - a) * ((nearest - from.z) / (to.z - from.z));
-    (from.z < nearest ? from : to) = pixel_of(view, cut);
-  }
-  for (int place = 0; place < stage.places(); ++place) {
-    ImGui::GetWindowDrawList()->AddLine(stage.at_pixel(from, place), stage.at_pixel(to, place), color,
-                                        thickness);
-  }
-}
-
 void outline(const Ui& ui, const Stage& stage, const TriangleCorners& corners, ImU32 color) {
-  for (std::size_t k = 0; k < 3; ++k) line(ui, stage, corners[k], corners[(k + 1) % 3], color, 2);
+  for (std::size_t k = 0; k < 3; ++k) draw_line(ui, stage, corners[k], corners[(k + 1) % 3], color, 2);
 }
 
 glm::dvec3 end_of(const Ui& ui, const PictureAnswer& answer, const LightExplanation& light) {
@@ -43,28 +27,9 @@ ImU32 faint(ImU32 color) {
   return (color & 0x00ffffffu) | IM_COL32(0, 0, 0, 90);
 }
 
-std::string node_name(const ViewState& state, int node) {
-  if (node < 0) return "no node";
-  const Scene& scene = state.scene->scene;
-  const Node& found = scene.nodes[static_cast<std::size_t>(node)];
-  if (!found.name.empty()) return found.name;
-  const std::string& mesh = scene.meshes[static_cast<std::size_t>(found.mesh)].name;
-  return mesh.empty() ? fmt::format("node {}", node) : mesh;
-}
-
 std::string material_name(const ViewState& state, int material) {
   const std::string& name = state.scene->scene.materials[static_cast<std::size_t>(material)].name;
   return name.empty() ? fmt::format("material {}", material) : name;
-}
-
-/// A word that selects what it names when it is clicked.
-bool link(Ui& ui, const std::string& text, const std::string& mark) {
-  ImGui::PushStyleColor(ImGuiCol_Text, palette::accent);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopStyleColor();
-  ui.mark(mark);
-  if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
-  return ImGui::IsItemClicked();
 }
 
 std::string verdict(const LightExplanation& light) {
@@ -130,9 +95,43 @@ void draw_words(Ui& ui, const PictureAnswer& answer) {
   for (const LightExplanation& light : pixel.lights) light_row(ui, answer, light);
   if (answer.question.picture->evidence.settings.shadows == render::ShadowMode::none)
     dim_text("Shadows are off: the picture lights it all the same.");
+  draw_day(ui, answer);
 }
 
 }  // namespace
+
+void draw_line(const Ui& ui, const Stage& stage, glm::dvec3 a, glm::dvec3 b, ImU32 color, float thickness) {
+  const ViewRays& view = ui.picture->view;
+  glm::dvec3 from = pixel_of(view, a), to = pixel_of(view, b);
+  constexpr double nearest = 1e-3;  // in units of the distance to the picture's plane
+  if (from.z < nearest && to.z < nearest) return;
+  if (!view.orthographic && (from.z < nearest || to.z < nearest)) {
+    const glm::dvec3 cut = a + (b - a) * ((nearest - from.z) / (to.z - from.z));
+    (from.z < nearest ? from : to) = pixel_of(view, cut);
+  }
+  for (int place = 0; place < stage.places(); ++place) {
+    ImGui::GetWindowDrawList()->AddLine(stage.at_pixel(from, place), stage.at_pixel(to, place), color,
+                                        thickness);
+  }
+}
+
+std::string node_name(const ViewState& state, int node) {
+  if (node < 0) return "no node";
+  const Scene& scene = state.scene->scene;
+  const Node& found = scene.nodes[static_cast<std::size_t>(node)];
+  if (!found.name.empty()) return found.name;
+  const std::string& mesh = scene.meshes[static_cast<std::size_t>(found.mesh)].name;
+  return mesh.empty() ? fmt::format("node {}", node) : mesh;
+}
+
+bool link(Ui& ui, const std::string& text, const std::string& mark) {
+  ImGui::PushStyleColor(ImGuiCol_Text, palette::accent);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopStyleColor();
+  ui.mark(mark);
+  if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+  return ImGui::IsItemClicked();
+}
 
 void draw_explanation_lines(Ui& ui, const Stage& stage) {
   if (!ui.answer || ui.answer->pixel.background) return;
@@ -143,10 +142,10 @@ void draw_explanation_lines(Ui& ui, const Stage& stage) {
     const glm::dvec3 end = end_of(ui, answer, light);
     if (light.occluder) {
       outline(ui, stage, answer.occluders[i], blocked_way);
-      line(ui, stage, answer.pixel.point, light.met_at, blocked_way, 2);
-      line(ui, stage, light.met_at, end, faint(blocked_way), 1.5f);
+      draw_line(ui, stage, answer.pixel.point, light.met_at, blocked_way, 2);
+      draw_line(ui, stage, light.met_at, end, faint(blocked_way), 1.5f);
     } else if (light.sight == LightSight::lit) {
-      line(ui, stage, answer.pixel.point, end, free_way, 1.5f);
+      draw_line(ui, stage, answer.pixel.point, end, free_way, 1.5f);
     }
   }
   const glm::dvec3 pixel = pixel_of(ui.picture->view, answer.pixel.point);

@@ -45,6 +45,7 @@ void draw_panel(Ui& ui, Area area) {
   draw_scene_section(ui);
   draw_method_section(ui);
   draw_light_section(ui);
+  draw_sun_section(ui);
   draw_tree_section(ui);
   draw_material_section(ui);
   draw_camera_section(ui);

@@ -186,7 +186,21 @@ float visible_intensity(const Ui& ui, LightType type, float distance_m) {
   return type == LightType::directional ? lux : lux * distance_m * distance_m;
 }
 
-/// Above the middle of the scene, or of what was asked about last.
+void add_lights(Ui& ui) {
+  row(ui, "Add", "A light above what was clicked last, or above the scene.");
+  constexpr struct {
+    const char* name;
+    LightType type;
+  } kinds[] = {{"point", LightType::point}, {"spot", LightType::spot}, {"sun", LightType::directional}};
+  for (const auto& kind : kinds) {
+    if (&kind != kinds) ImGui::SameLine(0, ui.px(4));
+    if (ImGui::Button(kind.name)) add_light(ui, kind.type);
+    ui.mark(fmt::format("add.{}", kind.name));
+  }
+}
+
+}  // namespace
+
 void add_light(Ui& ui, LightType type) {
   ViewState& state = ui.state;
   const bool asked = ui.answer && !ui.answer->pixel.background;
@@ -202,21 +216,6 @@ void add_light(Ui& ui, LightType type) {
   state.selected_light = state.light_count() - 1;
   state.light_edit(state.selected_light) = {};
 }
-
-void add_lights(Ui& ui) {
-  row(ui, "Add", "A light above what was clicked last, or above the scene.");
-  constexpr struct {
-    const char* name;
-    LightType type;
-  } kinds[] = {{"point", LightType::point}, {"spot", LightType::spot}, {"sun", LightType::directional}};
-  for (const auto& kind : kinds) {
-    if (&kind != kinds) ImGui::SameLine(0, ui.px(4));
-    if (ImGui::Button(kind.name)) add_light(ui, kind.type);
-    ui.mark(fmt::format("add.{}", kind.name));
-  }
-}
-
-}  // namespace
 
 void draw_light_section(Ui& ui) {
   if (!ui.state.scene) return;

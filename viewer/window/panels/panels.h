@@ -28,6 +28,7 @@ void draw_panel(Ui& ui, Area area);                               ///< all secti
 void draw_scene_section(Ui& ui);
 void draw_method_section(Ui& ui);
 void draw_light_section(Ui& ui);
+void draw_sun_section(Ui& ui);
 void draw_tree_section(Ui& ui);
 void draw_material_section(Ui& ui);
 void draw_camera_section(Ui& ui);
@@ -35,6 +36,8 @@ void draw_compare_section(Ui& ui);
 void draw_trade_plot(Ui& ui);        ///< which settings are worth their time here
 void draw_research_section(Ui& ui);  ///< variants, solvers, threads, costs: the second level
 void draw_cost_section(Ui& ui);
+void draw_day(Ui& ui,
+              const PictureAnswer& answer);     ///< of a pixel: which minutes are dark, and who blocks them
 void draw_explanation_card(Ui& ui, Area view);  ///< why a pixel is dark, in words
 void draw_open_dialog(Ui& ui, ImVec2 window);
 void draw_help(Ui& ui, ImVec2 window);  ///< the overlay of keys
@@ -49,5 +52,11 @@ void toggle_playing(ViewState& state);
 void leave_scene_camera(Ui& ui, CameraMode mode);
 void flip_slots(ViewState& state);
 void choose_clip(ViewState& state, int clip);
+void add_light(Ui& ui, LightType type);  ///< above what was asked about last, or the scene; selects it
+
+/// What nodes are called where they have no name.
+std::string node_name(const ViewState& state, int node);
+/// A word that selects what it names when it is clicked.
+bool link(Ui& ui, const std::string& text, const std::string& mark);
 
 }  // namespace tenebra::viewer

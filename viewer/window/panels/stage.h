@@ -46,10 +46,10 @@ public:
 
   /// The overlay explains A: where A is not shown, neither is it.
   bool shows_overlay() const {
-    const bool hides =
-        both() && (ui_.state.show == CompareView::b || ui_.state.show == CompareView::difference);
-    return !hides && ui_.state.overlay != Overlay::none && ui_.picture->overlay.kind == ui_.state.overlay;
+    return shows_a() && ui_.state.overlay != Overlay::none && ui_.picture->overlay.kind == ui_.state.overlay;
   }
+  /// So do the hours of sun.
+  bool shows_hours() const { return shows_a() && ui_.hours != nullptr; }
   bool both() const { return ui_.state.compare && ui_.picture->b.has_value(); }
   Area place() const { return places_[0]; }
 
@@ -60,10 +60,11 @@ public:
     image(textures.a, places_[0], 0, show == CompareView::wipe ? ui_.state.wipe : 1);
     if (show == CompareView::wipe) image(textures.b, places_[0], ui_.state.wipe, 1);
     if (show == CompareView::side_by_side) image(textures.b, places_[1], 0, 1);
-    if (shows_overlay()) {
-      const float to = show == CompareView::wipe ? ui_.state.wipe : 1;
+    const float to = show == CompareView::wipe ? ui_.state.wipe : 1;
+    if (shows_hours())
+      image(textures.hours, places_[0], 0, to, ui_.state.overlay_opacity);
+    else if (shows_overlay())
       image(textures.overlay, places_[0], 0, to, ui_.state.overlay_opacity);
-    }
   }
 
   /// Place in the picture of `at`, 0 to 1 from its left and top, in whichever of the places it is.
@@ -87,6 +88,9 @@ public:
   int places() const { return side_ ? 2 : 1; }
 
 private:
+  bool shows_a() const {
+    return !both() || (ui_.state.show != CompareView::b && ui_.state.show != CompareView::difference);
+  }
   void image(const PictureTexture& texture, Area area, float from, float to, float opacity = 1) {
     if (texture.width() == 0) return;
     // The cut lies on a whole pixel of the window, so that both sides stay exact.
@@ -103,6 +107,10 @@ private:
   bool side_ = false;
 };
 
+/// A segment of the scene as a line in the window, cut where it is behind the eye.
+void draw_line(const Ui& ui, const Stage& stage, glm::dvec3 a, glm::dvec3 b, ImU32 color, float thickness);
+void draw_sun_path(Ui& ui, const Stage& stage);           ///< the day's, over the model
+void draw_hours_legend(Ui& ui, const Area& place);        ///< of the colours, where hours are shown
 void draw_explanation_lines(Ui& ui, const Stage& stage);  ///< from the explained pixel to each light
 
 }  // namespace tenebra::viewer

@@ -12,6 +12,7 @@
 #include "window/frame_history.h"
 #include "window/frames/explainer.h"
 #include "window/frames/render_worker.h"
+#include "window/frames/sun_counter.h"
 #include "window/frames/trade_search.h"
 #include "window/key_press.h"
 #include "window/view_state.h"
@@ -34,6 +35,8 @@ struct Ui {
   const PictureAnswer* answer = nullptr;  ///< about a pixel; null: none was asked for
   TradeStatus trade{};
   TradeSubject trade_subject{};  ///< of a search that began now
+  JobStatus<CountedSun> sun{};
+  const CountedSun* hours = nullptr;  ///< of the picture and the day that are shown; null: none
 
   float px(float length) const { return length * scale; }
   /// The press of this key without Ctrl; null: none. `repeat`: holding it down counts too.

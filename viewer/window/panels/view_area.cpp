@@ -225,13 +225,16 @@ void draw_view(Ui& ui, const ViewTextures& textures, Area area) {
   if (ui.picture && area.size.x >= 1 && area.size.y >= 1) {
     Stage stage(ui, area);
     stage.draw(textures);
+    draw_sun_path(ui, stage);
     draw_explanation_lines(ui, stage);
     const Area place = stage.place();
     ui.marks["picture"] = {place.low.x, place.low.y, place.low.x + place.size.x, place.low.y + place.size.y};
     use_hand(ui, stage, area);
     draw_labels(ui, stage);
     draw_preview_mark(ui, place);
-    if (stage.shows_overlay()) {
+    if (stage.shows_hours()) {
+      draw_hours_legend(ui, place);
+    } else if (stage.shows_overlay()) {
       ui.state.overlay == Overlay::nodes ? draw_heat_legend(ui, place) : draw_class_legend(ui, place);
     }
   }
