@@ -8,7 +8,7 @@
 #include "module_parts.h"
 #include "point_arrays.h"
 #include "stage/additions.h"
-#include "sun/sun_hours.h"
+#include "sun/seasons.h"
 
 namespace tenebra::python {
 namespace {
@@ -170,10 +170,8 @@ py::dict scene_sun_hours(LoadedScene& scene, double time_s, const Array<double>&
                                : sun::face_receivers(staged, frame, choice.faces);
     if (!found) return tl::unexpected(found.error());
     receivers = std::move(*found);
-    const auto geometry = Geometry::create(frame.positions, frame.triangles, frame.casts_shadow);
-    if (!geometry) return tl::unexpected(geometry.error());
-    auto seen = sun::sun_hours(*geometry, receivers, {.list = suns}, {.disc_deg = disc_deg}, &work.stop,
-                               noted_in(work));
+    auto seen = sun::hours_of({staged, frame, {}}, receivers, {.list = suns}, {.disc_deg = disc_deg},
+                              &work.stop, noted_in(work));
     if (!seen) return tl::unexpected(seen.error());
     hours = std::move(*seen);
     return {};
