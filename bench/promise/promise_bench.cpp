@@ -70,9 +70,10 @@ Expected<void> measure_scene(const PromiseOptions& options, const std::filesyste
     for (std::size_t v = 0; v < views.size(); ++v) {
       opened->place(time_s, session::rays_of(staged, views[v], time_s, *scene.size));
       const std::string name = own_camera ? fmt::format("{} {}", file.stem().string(), frame)
-                                          : fmt::format("{} view {}", file.stem().string(), v);
+                                          : fmt::format("{} {} view {}", file.stem().string(), frame, v);
       for (std::size_t light = 0; light < opened->placed().lights.size(); ++light) {
-        const bool sun = staged.scene.lights[light].type == LightType::directional;
+        const auto number = static_cast<std::size_t>(opened->placed().lights[light].light);
+        const bool sun = staged.scene.lights[number].type == LightType::directional;
         for (const double size : sun ? std::span<const double>(sun_degrees) : options.light_sizes) {
           progress(fmt::format("{} light {} of {}", name, light, size));
           const PromiseView view{name, static_cast<int>(light), sun, size, options.rounds};

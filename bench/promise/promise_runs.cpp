@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 
 #include "settings/method_settings.h"
 
@@ -91,7 +92,11 @@ Expected<void> measure_view(session::Session& session, const PromiseView& view, 
     if (auto done = session.draw(settings, drawn); !done) return done;
     PromiseRun run{
         fmt::format("{} light {} {:g}{}", view.name, view.light, view.size, view.sun ? " deg" : "%"),
-        errors[e], 0, drawn.soft.error_255, penumbra.size()};
+        errors[e],
+        0,
+        drawn.soft.error_255,
+        penumbra.size(),
+        drawn.soft.points_sampled > 0};
     const std::vector<float> values = shown(drawn);
     double sum = 0;
     for (const std::size_t i : penumbra) {
@@ -104,10 +109,7 @@ Expected<void> measure_view(session::Session& session, const PromiseView& view, 
       run.over_smaller =
           times[e + 1] / *std::min_element(times.begin(), times.begin() + static_cast<long>(e) + 1);
     }
-    if (drawn.soft.points_sampled == 0 && times.empty())
-      ++table.exact_runs;
-    else
-      table.runs.push_back(run);
+    table.runs.push_back(run);
   }
   return {};
 }
@@ -115,7 +117,9 @@ Expected<void> measure_view(session::Session& session, const PromiseView& view, 
 void PromiseTable::print(bool with_times) const {
   Rows rows{{"view", "E", "RMS", "estimate", "penumbra", "RMS / E"}};
   if (with_times) rows[0].insert(rows[0].end(), {"over exact", "over smaller"});
-  std::vector<PromiseRun> worst = runs;
+  std::vector<PromiseRun> worst;
+  std::ranges::copy_if(runs, std::back_inserter(worst), &PromiseRun::sampled);
+  const std::size_t sampled = worst.size();
   std::stable_sort(worst.begin(), worst.end(), [](const PromiseRun& a, const PromiseRun& b) {
     return a.rms / a.asked > b.rms / b.asked;
   });
@@ -128,13 +132,15 @@ void PromiseTable::print(bool with_times) const {
       rows.back().insert(rows.back().end(),
                          {fmt::format("{:.2f}", run.over_exact), fmt::format("{:.2f}", run.over_smaller)});
   }
-  print_table(fmt::format("The worst of {} runs; {} more were exact", runs.size(), exact_runs), rows);
+  print_table(fmt::format("The worst of {} runs; {} more were exact", sampled, runs.size() - sampled), rows);
   double kept = 0, within = 0, most = 0, slower = 0;
   for (const PromiseRun& run : runs) {
+    slower = std::max(slower, run.over_smaller);
+    if (!run.sampled) continue;
     kept += run.rms <= run.asked, within += run.estimate_off() <= 1.5;
-    most = std::max(most, run.rms / run.asked), slower = std::max(slower, run.over_smaller);
+    most = std::max(most, run.rms / run.asked);
   }
-  const auto all = static_cast<double>(std::max<std::size_t>(runs.size(), 1));
+  const auto all = static_cast<double>(std::max<std::size_t>(sampled, 1));
   std::printf("%s%s%s", headline("soft.promise_within", kept / all, 3).c_str(),
               headline("soft.promise_worst", most, 2).c_str(),
               headline("soft.estimate_within", within / all, 3).c_str());

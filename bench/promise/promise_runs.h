@@ -22,6 +22,7 @@ struct PromiseRun {
   std::string view;
   double asked, rms, estimate;  ///< 1/255 of white
   std::size_t penumbra;         ///< pixels
+  bool sampled;                 ///< else all is exact, and times alone count
   double over_exact = 0;        ///< time over that of exact
   double over_smaller = 0;      ///< and of the next smaller error
   double estimate_off() const;  ///< as a ratio of at least 1
@@ -29,7 +30,6 @@ struct PromiseRun {
 
 struct PromiseTable {
   std::vector<PromiseRun> runs;
-  std::size_t exact_runs = 0;  ///< where nothing was sampled
 
   void print(bool with_times) const;
   void add_to(Report& report) const;

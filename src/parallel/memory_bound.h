@@ -31,12 +31,13 @@ public:
     if (refused_ > 0) return;
     if (bytes <= beside_) return work();
     const std::scoped_lock turn(one_large_);
+    if (refused_ > 0) return;
     work();
     release();
   }
 
   /// The bound that the largest of what was refused needs; 0: nothing was.
-  std::size_t least_bound() const { return refused_ / 3 * 4; }
+  std::size_t least_bound() const { return (refused_ + 2) / 3 * 4; }
 
 private:
   void refuse(std::size_t bytes) {

@@ -93,7 +93,7 @@ Expected<void> Lighter::trace_visible_part(const Frame& frame, const DrawnLight&
   const TriangleView triangles = traced_triangles(frame, light);
   const HardShadowConfig of_points{.variant = settings.hard.variant, .simd = settings.hard.simd};
   shown_.clear();
-  if (settings.soft.error_255 > 0) shown_of_irradiance(light, at, shown_);
+  if (!by_points && settings.soft.error_255 > 0) shown_of_irradiance(light, at, shown_);
   const bool done = by_points ? light_points_.trace(at.lit_at(), at.normals, triangles, *light.area,
                                                     settings.soft_points, of_points, out, frame.stop)
                               : soft_.trace(at.lit_at(), at.normals, triangles, *light.area, settings.soft,
