@@ -68,16 +68,16 @@ def directions(latitude: float, longitude: float, times: Any, *, up_axis: str, n
     return out.reshape(at.azimuth.shape + (3,))
 
 
-def suns_of(latitude: float, longitude: float, days: Union[str, datetime.date], *, up_axis: str, step: float = 10.0,
-            zone: str = "UTC", north: float = 0.0, refraction: bool = False) -> Suns:
-    """The suns of a day ("2026-06-21" or a date), or of days ("2026-03-01:2026-09-30:7": of each seven the middle one
-    stands for all), one every `step` minutes, in the middle of its step, without those below the horizon. Days begin
-    at midnight of `zone` ("+02:00": hours and minutes ahead of UTC)."""
+def suns_of(latitude: float, longitude: float, days: Union[str, datetime.date, np.datetime64], *, up_axis: str,
+            step: float = 10.0, zone: str = "UTC", north: float = 0.0, refraction: bool = False) -> Suns:
+    """The suns of a day ("2026-06-21", a date, or a datetime, whose date its own zone says), or of days
+    ("2026-03-01:2026-09-30:7": of each seven the middle one stands for all), one every `step` minutes, in the middle
+    of its step, without those below the horizon. Days begin at midnight of `zone` ("+02:00": hours and minutes ahead
+    of UTC)."""
     _within("latitude", latitude, -90, 90, "degrees; latitude comes first")
     _within("longitude", longitude, -180, 180, "degrees, east positive")
     _within("step", step, 0.1, 240, "minutes")
-    text = days if isinstance(days, str) else str(np.datetime64(days, "D"))
-    seconds, hours = _core.suns_of(latitude, longitude, text, step, zone, bool(refraction))
+    seconds, hours = _core.suns_of(latitude, longitude, _days_text(days), step, zone, bool(refraction))
     times = np.rint(1000 * seconds).astype("datetime64[ms]")
     to_suns = directions(latitude, longitude, times, up_axis=up_axis, north=north, refraction=refraction)
     return Suns(times, to_suns, hours)
@@ -107,7 +107,8 @@ def sun_hours(triangles: tenebra.Triangles, points: Any, normals: Any, suns: Uni
 
 def masks(triangles: tenebra.Triangles, points: Any, normals: Any, suns: Union[Suns, Any], on: Any = None, *,
           sides: Any = None, threads: int = 0, progress: Progress = None) -> np.ndarray:
-    """Whether each point sees each sun, as sun_hours asks: (s, ...) bool. Takes a byte for each of both."""
+    """Whether each point sees each sun, as sun_hours asks: (s, ...) bool. Takes two bytes for each of
+    them while it runs, then one."""
     to_suns, _ = _sun_arrays(suns, None)
     arrays, shape = tenebra._point_arrays(points, on, normals, sides)
     mask = np.empty((len(to_suns),) + shape, np.uint8)
@@ -129,7 +130,8 @@ def scene_sun_hours(scene: tenebra.Scene, suns: Union[Suns, Any], weights: Any =
     face: uint32, number of the triangle. node, material: names. x, y, z: of its middle. area_m2.
     Of the ground, with its height `ground` in the file's unit: cells with sides of `cell` metres, rows from north to
     south. row, column: uint32. x, y, z, area_m2.
-    sum, first, last: as sun_hours returns.
+    sum, first, last: as sun_hours returns, but see-through surfaces dim, in the colours of the file:
+    those of set_material change nothing here.
     """
     to_suns, weight = _sun_arrays(suns, weights)
     _within("disc", disc, 0, 90, "degrees")
@@ -158,6 +160,16 @@ def _is_z(up_axis: str) -> bool:
     if up_axis not in ("y", "z"):
         raise ValueError(f"up_axis: found {up_axis!r}, expected 'z' (maps, most CAD) or 'y'")
     return up_axis == "z"
+
+
+def _days_text(days: Any) -> str:
+    if isinstance(days, str):
+        return days
+    if isinstance(days, datetime.datetime):
+        days = days.date()  # as its own zone has it: numpy would turn it into UTC
+    if not isinstance(days, (datetime.date, np.datetime64)):
+        raise TypeError(f"days: found {days!r}, expected a text like 2026-06-21, a date, a datetime or a datetime64")
+    return str(np.datetime64(days, "D"))
 
 
 def _names(given: Union[str, List[str], None]) -> List[str]:

@@ -62,6 +62,29 @@ def test_suns_of_days():
     assert len(sun.suns_of(80, 0, datetime.date(2026, 12, 21), up_axis="z").hours) == 0
 
 
+@pytest.mark.parametrize("day", [
+    datetime.date(2026, 3, 20), datetime.datetime(2026, 3, 20, 23), np.datetime64("2026-03-20T23:59"),
+    datetime.datetime(2026, 3, 20, 1, tzinfo=datetime.timezone(datetime.timedelta(hours=2))),
+    datetime.datetime(2026, 3, 20, 23, tzinfo=datetime.timezone(datetime.timedelta(hours=-8)))])
+def test_a_day_is_that_of_its_own_zone(day):
+    assert (sun.suns_of(*MUNICH, day, up_axis="z").time == SUNS.time).all()
+
+
+def test_panes_dim_as_in_the_program(tmp_path):
+    (tmp_path / "pane.mtl").write_text("newmtl solid\nKd 1 1 1\nnewmtl pane\nKd 0.25 0.25 0.25\nd 0.5\n")
+    (tmp_path / "pane.obj").write_text(
+        "mtllib pane.mtl\no floor\nusemtl solid\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n"
+        "o pane\nusemtl pane\nv -99 -99 1\nv 99 -99 1\nv 99 99 1\nv -99 99 1\nf 5 6 7 8\n")
+    found = tenebra.Scene.load(tmp_path / "pane.obj", up_axis="z").sun_hours(SUNS, node="floor")["sum"]
+    assert (found > 0.1 * SUNS.hours.sum()).all() and (found < 0.9 * SUNS.hours.sum()).all()
+    if PROGRAM is None:
+        pytest.skip("TENEBRA_PROGRAM is not set")
+    subprocess.run([PROGRAM, "sun", tmp_path / "pane.obj", "--up-axis", "z", "--place", "%g,%g" % MUNICH, "--day", DAY,
+                    "--node", "floor", "--csv", tmp_path / "hours.csv", "--quiet"], check=True)
+    with open(tmp_path / "hours.csv", newline="") as table:
+        assert [float(row["hours"]) for row in csv.DictReader(table)] == pytest.approx(found, rel=1e-8)
+
+
 @pytest.mark.parametrize("shift", [np.zeros(3), np.array([690000.0, 5330000, 500])])
 def test_a_wall(shift):
     mesh = types.SimpleNamespace(vertices=VERTICES + shift, faces=FACES)
@@ -125,6 +148,7 @@ def test_scenes_are_counted_as_the_program_counts(tmp_path):
     (lambda: sun.positions(0, 0, "2222-01-01"), ValueError, "times: found 2222-01-01T.*, expected 1900"),
     (lambda: sun.directions(0, 0, DAY, up_axis="x"), ValueError, "up_axis: found 'x', expected 'z'"),
     (lambda: sun.suns_of(0, 0, "2026-02-30", up_axis="z"), ValueError, "days: found 2026-02-30, which is no day"),
+    (lambda: sun.suns_of(0, 0, 20260320, up_axis="z"), TypeError, "days: found 20260320, expected a text"),
     (lambda: sun.suns_of(0, 0, DAY, up_axis="z", zone="CET"), ValueError, "zone: found CET, expected UTC"),
     (lambda: sun.suns_of(0, 0, DAY, up_axis="z", step=0), ValueError, "step: found 0, expected 0.1 to 240"),
     (lambda: sun.sun_hours((VERTICES, FACES), POINTS, UP, [[0, 0, 0]]), ValueError, "expected a direction"),
