@@ -1,7 +1,6 @@
 #include "sun/columns.h"
 
 #include <algorithm>
-#include <optional>
 #include <string>
 
 #include "base/fail.h"
@@ -20,35 +19,25 @@ std::string_view trimmed(std::string_view text, std::string_view blanks = " \t\r
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
+}  // namespace
+
+Lines::Lines(std::string_view text) : text_(text) {
+  if (text_.starts_with("\xef\xbb\xbf")) text_.remove_prefix(3);
+}
+
+std::optional<std::string_view> Lines::next() {
+  if (text_.empty()) return std::nullopt;
+  const std::size_t end = text_.find('\n');
+  const std::string_view line = trimmed(text_.substr(0, end));
+  text_.remove_prefix(end == text_.npos ? text_.size() : end + 1);
+  ++number_;
+  return line;
+}
+
 std::optional<double> finite_number(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   return base::finite_in(text);
 }
-
-/// Hands out the lines that hold something, and counts all.
-class Lines {
-public:
-  explicit Lines(std::string_view text) : text_(text) {
-    if (text_.starts_with("\xef\xbb\xbf")) text_.remove_prefix(3);  // a byte order mark
-  }
-  std::optional<std::string_view> next() {
-    while (!text_.empty()) {
-      const std::size_t end = text_.find('\n');
-      const std::string_view line = trimmed(text_.substr(0, end));
-      text_.remove_prefix(end == text_.npos ? text_.size() : end + 1);
-      ++number_;
-      if (!line.empty() && !line.starts_with('#')) return line;
-    }
-    return std::nullopt;
-  }
-  std::size_t number() const { return number_; }
-
-private:
-  std::string_view text_;
-  std::size_t number_ = 0;
-};
-
-}  // namespace
 
 void split_cells(std::string_view line, std::vector<std::string_view>& cells) {
   cells.clear();
@@ -68,8 +57,13 @@ Expected<Columns> read_columns(const std::filesystem::path& file, std::span<cons
   const auto text = io::read_file(file, most_bytes);
   if (!text) return tl::unexpected(text.error());
   Lines lines(*text);
+  const auto next_row = [&] {
+    auto line = lines.next();
+    while (line && (line->empty() || line->starts_with('#'))) line = lines.next();
+    return line;
+  };
   std::vector<std::string_view> cells;
-  split_cells(lines.next().value_or(""), cells);
+  split_cells(next_row().value_or(""), cells);
   std::vector<std::optional<std::size_t>> places;
   for (const std::string_view name : names) {
     const auto found =
@@ -78,7 +72,7 @@ Expected<Columns> read_columns(const std::filesystem::path& file, std::span<cons
                                           : std::optional(static_cast<std::size_t>(found - cells.begin())));
   }
   Columns columns{std::vector<std::vector<double>>(names.size()), 0};
-  while (const auto line = lines.next()) {
+  while (const auto line = next_row()) {
     split_cells(*line, cells);
     for (std::size_t i = 0; i < names.size(); ++i) {
       if (!places[i]) continue;

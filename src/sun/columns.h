@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,22 @@ struct Columns {
 
   bool has(std::size_t column) const { return !values[column].empty(); }
 };
+
+/// Hands out the lines of a text without blanks around them, and counts them from 1. A byte order mark is
+/// passed over.
+class Lines {
+public:
+  explicit Lines(std::string_view text);
+  std::optional<std::string_view> next();
+  std::size_t number() const { return number_; }
+
+private:
+  std::string_view text_;
+  std::size_t number_ = 0;
+};
+
+/// The whole text as a finite number; a plus may stand before it.
+std::optional<double> finite_number(std::string_view text);
 
 /// The cells of a line of comma-separated values, without blanks and quotes around them. A comma within
 /// quotes belongs to its cell.

@@ -30,8 +30,8 @@ double value_of(const Study& study, std::size_t i);
 
 /// A line of names, then a row for each receiver, in order: face (number of the triangle in the scene), cell
 /// or point; of a face its node and material; x, y, z of its middle; its area; `hours`, `sum` where suns have
-/// no time, `kwh_m2`, `hours` where they have light, and before these what the sky adds to it, `sky_kwh_m2`
-/// (else `sky`, the share of an open one's); when the first and the last sun are seen; minutes, or
+/// no time or `kwh_m2` where they have light; what a sky adds to that, `sky_kwh_m2`, or else `sky`, the share
+/// of an open one's; `hours` where suns have light; when the first and the last sun are seen; minutes, or
 /// the light, of each month, where they were asked for: N days that one stands for count in its month, and
 /// years are added up.
 std::string csv_of(const Study& study);

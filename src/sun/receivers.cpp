@@ -100,6 +100,12 @@ void add_face(const Face& face, std::size_t triangle, int node, int parts, const
 
 }  // namespace
 
+std::vector<std::uint32_t> Receivers::ends() const {
+  std::vector<std::uint32_t> ends;
+  for (const Receiver& receiver : list) ends.push_back(receiver.end);
+  return ends;
+}
+
 Expected<Receivers> face_receivers(const Scene& scene, const FrameGeometry& frame, const FaceChoice& choice) {
   const auto nodes = chosen_nodes(scene, choice.nodes);
   if (!nodes) return tl::unexpected(nodes.error());

@@ -43,6 +43,8 @@ struct Receivers {
   QueryPoints points() const {
     return {.positions = positions, .triangles = triangles, .normals = normals, .sides = sides};
   }
+  /// One past the last point of each of the list.
+  std::vector<std::uint32_t> ends() const;
 };
 
 /// Which triangles, and how many points on each.

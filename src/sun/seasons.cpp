@@ -63,9 +63,7 @@ Expected<SunHours> hours_when(const SeasonalScene& s, const Casting& casting, co
   SeeThroughSurfaces glass = see_through_surfaces(s.scene, s.frame, coordinates);
   glass.see_through = casters.see_through;
   if (std::ranges::count(casters.see_through, 1) > 0) config.glass = &glass;
-  std::vector<std::uint32_t> ends;
-  for (const Receiver& receiver : receivers.list) ends.push_back(receiver.end);
-  return sun_hours(*geometry, receivers.points(), ends, suns, config, stop, progress);
+  return sun_hours(*geometry, receivers.points(), receivers.ends(), suns, config, stop, progress);
 }
 
 /// `more`: of the suns that follow `before` others.

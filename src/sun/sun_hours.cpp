@@ -155,28 +155,32 @@ void divide_by_points(std::span<const std::uint32_t> ends, SunHours& out) {
   }
 }
 
-/// Of a batch. Fails on a point that faces nowhere; `first` is the batch's
-/// first.
-Expected<std::vector<Facing>> facings_of(const Geometry& geometry, const QueryPoints& points,
-                                         std::size_t first) {
+std::vector<Facing> facings_of(const Geometry& geometry, const QueryPoints& points) {
   std::vector<Facing> facings;
   const TriangleView view = geometry.view();
-  for (std::size_t i = 0; i < points.positions.size(); ++i) {
-    facings.push_back(facing_of(view, points, i));
-    if (facings.back().normal == glm::dvec3(0.0) && !facings.back().both)
-      return base::fail(
-          "point {} lies on no face and has no normal, expected one (columns nx, ny, nz): light on a surface "
-          "depends on where it faces",
-          first + i);
-  }
+  for (std::size_t i = 0; i < points.positions.size(); ++i) facings.push_back(facing_of(view, points, i));
   return facings;
 }
 
 }  // namespace
 
+Expected<void> check_facings(const QueryPoints& points) {
+  for (std::size_t i = 0; i < points.positions.size(); ++i) {
+    const bool on_face = !points.triangles.empty() && points.triangles[i] != no_triangle;
+    if (!on_face && (points.normals.empty() || !(glm::length(glm::dvec3(points.normals[i])) > 0)))
+      return base::fail(
+          "point {} lies on no face and has no normal, expected one (columns nx, ny, nz): light on a surface "
+          "depends on where it faces",
+          i);
+  }
+  return {};
+}
+
 Expected<SunHours> sun_hours(const Geometry& geometry, const QueryPoints& points,
                              std::span<const std::uint32_t> ends, std::span<const Sun> suns,
                              const HoursConfig& config, const StopFlag* stop, const QueryProgress& progress) {
+  if (config.light)
+    if (auto facing = check_facings(points); !facing) return tl::unexpected(facing.error());
   const std::size_t count = ends.size();
   SunHours out{std::vector<double>(count),
                std::vector<std::int32_t>(count, -1),
@@ -189,11 +193,9 @@ Expected<SunHours> sun_hours(const Geometry& geometry, const QueryPoints& points
   for (std::size_t first = 0; first < count;) {
     const Batch batch = next_batch(ends, first);
     const QueryPoints asked = part_of(points, batch.points_begin, batch.points_end - batch.points_begin);
-    const auto facings = config.light ? facings_of(geometry, asked, batch.points_begin)
-                                      : Expected<std::vector<Facing>>(std::vector<Facing>());
-    if (!facings) return tl::unexpected(facings.error());
+    const auto facings = config.light ? facings_of(geometry, asked) : std::vector<Facing>();
     const auto use = [&](std::size_t s, const Sight& sight) {
-      add(sight, batch, ends, *facings, suns[s], static_cast<std::int32_t>(s), out);
+      add(sight, batch, ends, facings, suns[s], static_cast<std::int32_t>(s), out);
       const double part = static_cast<double>(batch.points_end - batch.points_begin) *
                           static_cast<double>(s + 1) / static_cast<double>(suns.size());
       if (progress) progress((batch.points_begin + part) / static_cast<double>(ends.back()));
@@ -209,10 +211,8 @@ Expected<SunHours> sun_hours(const Geometry& geometry, const QueryPoints& points
 
 Expected<SunHours> sun_hours(const Geometry& geometry, const Receivers& receivers, const Suns& suns,
                              HoursConfig config, const StopFlag* stop, const QueryProgress& progress) {
-  std::vector<std::uint32_t> ends;
-  for (const Receiver& receiver : receivers.list) ends.push_back(receiver.end);
   config.light = suns.kind == SunKind::radiation;
-  return sun_hours(geometry, receivers.points(), ends, suns.list, config, stop, progress);
+  return sun_hours(geometry, receivers.points(), receivers.ends(), suns.list, config, stop, progress);
 }
 
 }  // namespace tenebra::sun

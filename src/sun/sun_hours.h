@@ -12,8 +12,8 @@
 namespace tenebra::sun {
 
 struct HoursConfig {
-  double disc_deg =
-      0;  ///< the sun's diameter, 0 to 90; 0: a point. Of a disc the visible share of its area counts
+  /// The sun's diameter, 0 to 90; 0: a point. Of a disc the visible share of its area counts.
+  double disc_deg = 0;
   bool light = false;                         ///< what their surfaces get of the suns' light too
   bool months = false;                        ///< what each month adds too
   const SeeThroughSurfaces* glass = nullptr;  ///< of the geometry's triangles: they dim; null: there is none
@@ -32,11 +32,15 @@ struct SunHours {
                                     ///< that they see times the cosine to the normal; empty: not asked for
 };
 
+/// Whether light can be counted: fails on a point that has no triangle and no normal.
+Expected<void> check_facings(const QueryPoints& points);
+
 /// The same bytes for any number of threads and vector level. `ends`: one past the last point of each
 /// receiver, ascending; the last one is the number of points. With `ends` takes 20 bytes for each
-/// receiver (124 with months and light) and some 140 for each of 2^18 points at a time. Fails as PointTracer
-/// does, with "stopped" soon after `stop`, and where light is asked for and a point has no triangle and no
-/// normal. Its normal is the given one, else that of its side of the triangle.
+/// receiver, 8 more with light and 96 with months, and for 2^18 points at a time (or all of a receiver that
+/// has more) 32 bytes with light and what PointTracer and, with glass, TintTracer take. Fails as PointTracer
+/// does, with "stopped" soon after `stop`, and where light is asked for as check_facings() does. A point's
+/// normal is the given one, else that of its side of the triangle.
 Expected<SunHours> sun_hours(const Geometry& geometry, const QueryPoints& points,
                              std::span<const std::uint32_t> ends, std::span<const Sun> suns,
                              const HoursConfig& config, const StopFlag* stop = nullptr,

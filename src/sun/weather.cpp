@@ -5,7 +5,6 @@
 #include <string>
 
 #include "base/fail.h"
-#include "base/number_in.h"
 #include "io/input_file.h"
 #include "sun/columns.h"
 
@@ -23,7 +22,7 @@ struct WeatherLine {
   /// Cell `i` as a number from `low` to `high`.
   Expected<double> in(std::size_t i, const char* name, double low, double high) const {
     const std::string_view cell = i < cells.size() ? cells[i] : "";
-    const auto found = base::finite_in(cell.starts_with('+') ? cell.substr(1) : cell);
+    const auto found = finite_number(cell);
     if (found && *found >= low && *found <= high) return *found;
     return base::fail("{}:{}: found {} for the {}, expected a number from {} to {}", file, number,
                       cell.empty() ? "nothing" : std::string(cell.substr(0, 40)), name, low, high);
@@ -64,8 +63,10 @@ Expected<void> read_header(const WeatherLine& line, Weather& out) {
     if (line.cells.front() != "DATA PERIODS")
       return base::fail("{}:{}: found no DATA PERIODS, expected it in the last line of an EPW file's header",
                         line.file, header_lines);
-    const auto records = line.in(2, "records of an hour, of which one is read,", 1, 1);
+    const auto records = line.in(2, "number of records in an hour", 1, 60);
     if (!records) return tl::unexpected(records.error());
+    if (*records != 1)
+      return base::fail("{}:{}: found {} records in an hour, expected 1", line.file, header_lines, *records);
   }
   return {};
 }
@@ -103,13 +104,11 @@ Expected<Weather> read_weather(const std::filesystem::path& file) {
   if (!text) return tl::unexpected(text.error());
   Weather weather;
   WeatherLine line{file.string()};
-  for (std::string_view rest = *text; !rest.empty();) {
-    const std::size_t end = rest.find('\n');
-    const std::string_view words = rest.substr(0, end);
-    rest.remove_prefix(end == rest.npos ? rest.size() : end + 1);
-    ++line.number;
-    if (line.number > header_lines && words.find_first_not_of(" \t\r") == words.npos) continue;
-    split_cells(words, line.cells);
+  Lines lines(*text);
+  while (const auto words = lines.next()) {
+    line.number = lines.number();
+    if (line.number > header_lines && words->empty()) continue;
+    split_cells(*words, line.cells);
     const auto read = line.number <= header_lines ? read_header(line, weather) : read_hour(line, weather);
     if (!read) return tl::unexpected(read.error());
   }

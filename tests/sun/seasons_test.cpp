@@ -140,5 +140,50 @@ TEST(Glass, IsTheSameWithAnyNumberOfPointsAndThreads) {
   EXPECT_GT(hours[0].sums[middle], 0);
 }
 
+/// Cells [first, end) alone.
+Receivers cells_of(const Receivers& all, std::size_t first, std::size_t end) {
+  Receivers out;
+  out.kind = all.kind;
+  for (std::size_t i = first; i < end; ++i) {
+    out.positions.push_back(all.positions[i]), out.normals.push_back(all.normals[i]);
+    out.list.push_back(all.list[i]);
+    out.list.back().end = static_cast<std::uint32_t>(out.list.size());
+  }
+  return out;
+}
+
+// More cells than are asked at a time: each is as when it is asked in a short list.
+TEST(Glass, IsTheSameInLongLists) {
+  Scene scene = sheets(true, 0.5f);
+  scene.nodes[1].visible = false;
+  const FrameGeometry frame = frame_of(scene);
+  const Receivers cells = ground_receivers(frame, scene.frame, 1, 3.5).value();
+  constexpr std::size_t at_a_time = std::size_t{1} << 18;
+  ASSERT_GT(cells.list.size(), at_a_time + 3);
+  Suns suns = noons();
+  suns.list.resize(1);
+  suns.list[0].to_sun = glm::normalize(glm::dvec3(-1, 1, 0));  // in the west: past the sheet from its edge
+  const auto hours = [&](const Receivers& of, int threads) {
+    SunHours out;
+    with_threads(threads, [&] { out = hours_of({scene, frame, {}}, of, suns, {}).value(); });
+    return out;
+  };
+  const SunHours one = hours(cells, 1), three = hours(cells, 3);
+  EXPECT_EQ(one.sums, three.sums);
+  EXPECT_EQ(one.light, three.light);
+  const std::size_t count = cells.list.size(), row = static_cast<std::size_t>(cells.grid.columns);
+  for (const auto& [first, end] : {std::pair(row, row + 3), std::pair(at_a_time - 3, at_a_time + 3),
+                                   std::pair(count - row - 4, count - row)}) {
+    const SunHours few = hours(cells_of(cells, first, end), 1);
+    for (std::size_t i = first; i < end; ++i) {
+      EXPECT_EQ(one.sums[i], few.sums[i - first]) << i;
+      EXPECT_EQ(one.light[i], few.light[i - first]) << i;
+      EXPECT_EQ(one.last[i], few.last[i - first]) << i;
+    }
+  }
+  EXPECT_GT(one.light[row + 1], one.light[count - row - 2]);
+  EXPECT_GT(one.light[count - row - 2], 0);
+}
+
 }  // namespace
 }  // namespace tenebra::sun

@@ -69,6 +69,16 @@ TEST(Sky, AnOpenWallGetsHalf) {
   EXPECT_NEAR(sky_at(wall_scene(), {0, 0, 90}, south, 4), 0.5, 0.001);
 }
 
+TEST(Sky, BothSidesOfAFaceTogether) {
+  const Scene wall = testing::map_scene({{-9, 0, 0}, {9, 0, 0}, {9, 0, 9}}, "f 1 2 3\n");
+  const FrameGeometry frame = frame_of(wall);
+  for (const bool both : {false, true}) {
+    const Receivers face = face_receivers(wall, frame, {.both_sides = both, .per_face = 1}).value();
+    EXPECT_NEAR(sky_of({wall, frame, {}}, face, {}, sky_patches(4, 0), {}).value().light[0], both ? 1 : 0.5,
+                0.002);
+  }
+}
+
 TEST(Sky, OfAWeatherFile) {
   const auto weather = testing::weather_in(testing::epw_text(
       "48,0,0", {{2003, 6, 21, 1, 0, 5}, {2003, 6, 21, 13, 500, 100}, {2003, 7, 1, 13, 700, 200}}));

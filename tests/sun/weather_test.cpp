@@ -34,6 +34,11 @@ TEST(Weather, HoursOfAFile) {
   EXPECT_EQ(weather.missing, 1u);
 }
 
+TEST(Weather, MayBeginWithAByteOrderMark) {
+  const std::string text = "\xef\xbb\xbf" + epw_text("48,11,1", {{2003, 1, 1, 1, 5, 6}}) + "\n";
+  EXPECT_EQ(weather_in(text).value().hours.size(), 1u);
+}
+
 TEST(Weather, LeapDays) {
   const Weather weather =
       weather_in(epw_text("0,0,-3.5", {{2004, 2, 29, 12, 1, 0}, {2003, 2, 29, 12, 1, 0}})).value();
@@ -53,7 +58,8 @@ TEST(Weather, RefusesInASentence) {
   EXPECT_NE(refusal("").find("found no hour"), std::string::npos);
   EXPECT_NE(refusal("x,y,z\n").find("found no LOCATION"), std::string::npos);
   EXPECT_NE(refusal(epw_text("91,11,1", {})).find("w.epw:1: found 91 for the latitude"), std::string::npos);
-  EXPECT_NE(refusal(epw_text("48,11,1", {}, 4)).find("w.epw:8: found 4 for the records"), std::string::npos);
+  EXPECT_NE(refusal(epw_text("48,11,1", {}, 4)).find("w.epw:8: found 4 records in an hour"),
+            std::string::npos);
   EXPECT_NE(refusal(epw_text("48,11,1", {})).find("found no hour"), std::string::npos);
   EXPECT_NE(refusal(whole + "2003,1,1,2\n").find("w.epw:10: found nothing for the direct"),
             std::string::npos);
@@ -123,6 +129,21 @@ TEST(Weather, LightOnASurface) {
                 .error()
                 .message.find("point 0 lies on no face"),
             std::string::npos);
+}
+
+TEST(Weather, PointsWithoutANormalAreRefusedBeforeTheWork) {
+  const FrameGeometry frame = frame_of(wall_scene());
+  constexpr std::uint32_t count = (1u << 18) + 1;  // more than are asked at a time
+  const std::vector<glm::dvec3> at(count, glm::dvec3(0, 40, 0));
+  std::vector<glm::vec3> normals(count, glm::vec3(0, 1, 0));
+  normals.back() = {0, 0, 0};
+  const std::vector<std::uint32_t> ends{count - 1, count};
+  const std::vector<Sun> suns{{}};
+  bool begun = false;
+  const auto hours = sun_hours(geometry_of(frame), {.positions = at, .normals = normals}, ends, suns,
+                               {.light = true}, nullptr, [&](double) { begun = true; });
+  EXPECT_NE(hours.error().message.find("point 262144 lies on no face"), std::string::npos);
+  EXPECT_FALSE(begun);
 }
 
 TEST(Weather, BothSidesOfAFace) {
