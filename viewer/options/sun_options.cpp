@@ -33,11 +33,14 @@ Expected<sun::Place> parse_place_on_earth(const std::string& text) {
 
 Expected<std::variant<sun::Days, sun::Season>> parse_days_or_season(const std::string& text) {
   using Days = std::variant<sun::Days, sun::Season>;
-  const std::size_t colon = text.find(':');
-  constexpr std::size_t month_day = 5;
-  if (colon != text.npos && colon <= month_day)
-    return sun::parse_season(text).map([](auto s) { return Days(s); });
-  return sun::parse_days(text).map([](sun::Days days) { return Days(days); });
+  if (const auto season = sun::parse_season(text)) return Days(*season);
+  const auto days = sun::parse_days(text);
+  if (!days)
+    return base::fail(
+        "{}; --place takes days of a year, like 2026-04-01:2026-09-30, --epw those of any, like 4:9 or "
+        "04-01:09-30",
+        days.error().message);
+  return Days(*days);
 }
 
 Expected<sun::Days> parse_one_day(const std::string& text) {
@@ -169,9 +172,9 @@ void add_where(CLI::App& command, SunOptions& options) {
           .type_name("NAME"),
       add_flag(command, "--upward", options.faces.upward,
                "Only faces that rise at most 60 degrees: roofs and ground"),
-      add_flag(
-          command, "--both-sides", options.faces.both_sides,
-          "Count the side of a face that the sun is on; for files whose\nfaces do not all point outward"),
+      add_flag(command, "--both-sides", options.faces.both_sides,
+               "Count the side of a face that the sun is on, of a sky both\ntogether; for files whose faces "
+               "do not all point outward"),
       add_value(command, "--per-face", options.faces.per_face, parse_per_face,
                 "Points on each face, rounded up to a square number [16]")
           .type_name("N"),
@@ -254,6 +257,8 @@ Expected<void> check_where(const CLI::App& command, const SunOptions& options) {
     return base::fail("--full is for -o and --png");
   if (was_given(command, "--per-face") && was_given(command, "--per-m2"))
     return base::fail("--per-face excludes --per-m2");
+  if (options.sky_parts > 0 && options.weather.empty() && options.csv.empty() && options.json.empty())
+    return base::fail("--sky without --epw is a column of --csv and --json, expected one of them or --epw");
   return {};
 }
 
