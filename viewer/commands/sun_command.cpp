@@ -75,11 +75,16 @@ Expected<sun::Suns> find_suns(const SunOptions& options, const FileFrame& frame)
   const auto weather = sun::read_weather(options.weather);
   if (!weather) return tl::unexpected(weather.error());
   if (weather->missing > 0 && !options.quiet)
-    print_error("note: {} hours of the weather file have no direct or no diffuse light and count as dark\n",
-                weather->missing);
+    print_error(
+        "note: {} hours of the weather file lack direct light, diffuse light or both; what is missing counts "
+        "as 0\n",
+        weather->missing);
   sun::WeatherTimes times{{}, options.step_min.value_or(60), options.north_deg, air};
   if (options.days) times.days = std::get<sun::Season>(*options.days);
-  return sun::suns_of(*weather, times);
+  auto suns = sun::suns_of(*weather, times);
+  if (suns && suns->diffuse_wh_m2.empty())
+    return base::fail("{}: found no hour of these --days, expected some that the file has", options.weather);
+  return suns;
 }
 
 Expected<sun::Receivers> find_receivers(const SunOptions& options, const SunScene& scene) {
@@ -226,6 +231,8 @@ Expected<int> study_sun(const SunOptions& options) {
   if (!suns) return tl::unexpected(suns.error());
   const auto receivers = find_receivers(options, *scene);
   if (!receivers) return tl::unexpected(receivers.error());
+  if (options.sky_parts > 0 || suns->kind == sun::SunKind::radiation)
+    if (auto facing = sun::check_facings(receivers->points()); !facing) return tl::unexpected(facing.error());
   if (!options.quiet) print_warnings(staged.warnings), print_sun_notes(options, *suns);
   stop.be_orderly();
   base::Stopwatch watch;
