@@ -58,11 +58,8 @@ Expected<SunHours> hours_when(const SeasonalScene& s, const Casting& casting, co
   const Casters casters = casters_when(s, casting);
   const auto geometry = Geometry::create(s.frame.positions, s.frame.triangles, casters.casts_shadow);
   if (!geometry) return tl::unexpected(geometry.error());
-  const SurfaceCoordinates coordinates =
-      casters.see_through.empty() ? SurfaceCoordinates{} : surface_coordinates(s.scene);
-  SeeThroughSurfaces glass = see_through_surfaces(s.scene, s.frame, coordinates);
-  glass.see_through = casters.see_through;
-  if (std::ranges::count(casters.see_through, 1) > 0) config.glass = &glass;
+  const auto glass = glass_of(s.scene, s.frame, casters.see_through);
+  if (glass) config.glass = &glass->surfaces;
   return sun_hours(*geometry, receivers.points(), receivers.ends(), suns, config, stop, progress);
 }
 
@@ -90,6 +87,16 @@ QueryProgress progress_within(const QueryProgress& progress, std::size_t first, 
 }
 
 }  // namespace
+
+std::unique_ptr<const FrameGlass> glass_of(const Scene& scene, const FrameGeometry& frame,
+                                           std::span<const std::uint8_t> see_through) {
+  if (std::ranges::count(see_through, 1) == 0) return nullptr;
+  auto glass = std::make_unique<FrameGlass>();
+  glass->coordinates = surface_coordinates(scene);
+  glass->surfaces = see_through_surfaces(scene, frame, glass->coordinates);
+  glass->surfaces.see_through = see_through;
+  return glass;
+}
 
 Expected<SeasonalCaster> parse_seasonal(const std::string& text) {
   const std::size_t equals = text.rfind('=');

@@ -1,6 +1,8 @@
 // Nodes that cast in a part of the year, and the sun and sky of a scene that has some.
 #pragma once
 
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +24,15 @@ struct SeasonalScene {
   const FrameGeometry& frame;
   std::vector<SeasonalCaster> seasonal;
 };
+
+/// What HoursConfig::glass is of a frame; it stays where it is.
+struct FrameGlass {
+  SurfaceCoordinates coordinates;
+  SeeThroughSurfaces surfaces;
+};
+/// `see_through`: as FrameGeometry's, and must live as long. Null: no triangle lets light pass.
+std::unique_ptr<const FrameGlass> glass_of(const Scene& scene, const FrameGeometry& frame,
+                                           std::span<const std::uint8_t> see_through);
 
 /// As sun_hours() of receivers, with see-through surfaces that dim: suns that follow each other with the same
 /// casters share one geometry. Fails on a node that the scene does not have.

@@ -11,14 +11,13 @@ glm::vec3 lower_right_corner(const Picture& picture) {
   return view.d0 + static_cast<float>(image.width) * view.dx + static_cast<float>(image.height) * view.dy;
 }
 
-/// Both see the same part of the same scene.
+}  // namespace
+
 bool same_place(const Picture& a, const Picture& b) {
   const auto near = [](glm::vec3 p, glm::vec3 q) { return glm::distance(p, q) <= 1e-4f * glm::length(p); };
   return a.scene == b.scene && a.view.eye == b.view.eye && near(a.view.d0, b.view.d0) &&
          near(lower_right_corner(a), lower_right_corner(b));
 }
-
-}  // namespace
 
 void PixelAnswers::ask(QuestionKind kind, const std::shared_ptr<const Picture>& picture, glm::dvec2 place) {
   const io::Image8& image = picture->a.result.image;

@@ -9,6 +9,9 @@
 
 namespace tenebra::viewer {
 
+/// Both see the same part of the same scene, perhaps in other sizes.
+bool same_place(const Picture& a, const Picture& b);
+
 class PixelAnswers {
 public:
   /// `wake` is called on another thread when there is an answer.

@@ -30,9 +30,9 @@ public:
 
   /// The same of hours of sun.
   void show_hours(const std::shared_ptr<const CountedSun>& counted) {
-    if (!counted || counted == hours_) return;
+    if (counted == hours_) return;
     hours_ = counted;
-    hours.show(counted->image, true);
+    if (counted) hours.show(counted->image, false);
   }
 
   PictureTexture a, b, difference, overlay, hours;

@@ -50,7 +50,7 @@ Viewer::Viewer(ViewOptions options, WindowGl& gl, EventReport report, const std:
 double Viewer::sleep_s() const {
   const WorkerStatus status = worker_.status();
   const bool moves = status.loading || status.drawing || !messages_.empty() || search_.status().running ||
-                     counter_.status().running;
+                     counter_.status().running || will_count_;
   return pace_.sleep_s({status.hurries, moves, worker_.look_again_s()}, now());
 }
 
@@ -83,6 +83,9 @@ void Viewer::take_scene(OpenedScene opened) {
   start_scene(state_, *opened.scene, std::move(opened.options), options_, now());
   undo_.begin(state_.edits);
   answers_.close();
+  counter_.forget();
+  counting_.reset();
+  state_.sun.dark_light = -1;
   for (FrameHistory& history : history_) history.clear();
   state_.settings.remember(state_.options.file);
   report_.opened(state_.options.file, *state_.scene);
@@ -172,6 +175,7 @@ void Viewer::send_request() {
   // A setting chosen by a click is wanted now; a hand that drags wants to see pictures on its way.
   worker_.request(std::move(request), new_method && !hand_moves_);
   sent_ = std::move(key);
+  changed_ = now();
 }
 
 void Viewer::update() {

@@ -83,6 +83,7 @@ private:
   void toggle_trade();
   void follow_search();
   void follow_sun();
+  void count_hours();
   std::shared_ptr<const CountedSun> shown_hours() const;  ///< that fit what is shown; null: none do
   void end_recording(const std::string& how);
   // What is drawn.
@@ -126,6 +127,8 @@ private:
   SunDay suns_of_;
   std::optional<SunQuestion> counting_;  // the last that was begun
   bool counts_ = false;                  // as far as this thread knows
+  bool will_count_ = false;              // as soon as the view rests
+  AnimationClock::Wall changed_{};       // the last change of the view or the day
   SunCounter counter_;
   RenderWorker worker_;   // last: its thread ends first
   PixelAnswers answers_;  // and before that this one's

@@ -61,6 +61,12 @@ public:
     request_.reset();
     if (status_.running) stop_.request();
   }
+  /// And what was found is let go.
+  void forget() {
+    stop();
+    const std::lock_guard lock(mutex_);
+    status_.found.reset();
+  }
   JobStatus<Found> status() const {
     const std::lock_guard lock(mutex_);
     JobStatus<Found> status = status_;
@@ -99,9 +105,9 @@ private:
           [] {});
       lock.lock();
       status_.running = false;
-      if (result)
+      if (result && !stop_.requested())
         status_.found = std::make_shared<Found>(std::move(*result));
-      else if (!stop_.requested())
+      else if (!result && !stop_.requested())
         failure_ = result.error().message;
       lock.unlock();
       wake_();

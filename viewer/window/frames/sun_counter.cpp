@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
+#include <tenebra/threads.h>
 #include "session/session.h"
 #include "sun/colour_scale.h"
-#include "sun/sun_hours.h"
+#include "sun/seasons.h"
 
 namespace tenebra::viewer {
 namespace {
@@ -73,39 +75,61 @@ void paint(const SeenPoints& points, const std::vector<double>& minutes, Counted
   }
 }
 
-}  // namespace
-
-Expected<CountedSun> count_sun(const SunQuestion& question, const SunCounter::Progress& progress,
-                               const StopFlag& stop) {
+Expected<CountedSun> count(const SunQuestion& question, const SunCounter::Progress& progress,
+                           const StopFlag& stop) {
   const Picture& picture = *question.picture;
   const PictureEvidence& evidence = picture.evidence;
   render::FrameInput input;
   session::evaluate(picture.scene->scene, evidence.edits, evidence.clip, evidence.time_s, input);
-  const FrameGeometry& frame = input.geometry;
-  const Lattice lattice({picture.a.result.image.width, picture.a.result.image.height});
+  FrameGeometry& frame = input.geometry;
+  cast_see_through(evidence.settings.see_through, frame);
+  const Size size{picture.a.result.image.width, picture.a.result.image.height};
+  const Lattice lattice(size);
   const SeenPoints points = points_of(picture, lattice, frame);
   const auto geometry = Geometry::create(frame.positions, frame.triangles, frame.casts_shadow);
   if (!geometry) return tl::unexpected(geometry.error());
+  const auto glass = sun::glass_of(picture.scene->scene, frame, frame.see_through);
+  sun::HoursConfig config;
+  config.hard = evidence.settings.hard;
+  if (glass) config.glass = &glass->surfaces;
   std::vector<std::uint32_t> ends;
   for (std::size_t i = 0; i < points.positions.size(); ++i) ends.push_back(static_cast<std::uint32_t>(i + 1));
   const QueryPoints asked{
       .positions = points.positions, .triangles = points.triangles, .sides = points.sides};
-  const auto hours = sun::sun_hours(*geometry, asked, ends, question.suns->list, {}, &stop, progress);
+  const auto hours = sun::sun_hours(*geometry, asked, ends, question.suns->list, config, &stop, progress);
   if (!hours) return tl::unexpected(hours.error());
   CountedSun out{question, {lattice.width, lattice.height, 4, {}}};
   out.image.pixels.resize(std::size_t{4} * static_cast<std::size_t>(lattice.width) *
                           static_cast<std::size_t>(lattice.height));
+  out.covered = {static_cast<float>(lattice.width * lattice.step) / static_cast<float>(size.width),
+                 static_cast<float>(lattice.height * lattice.step) / static_cast<float>(size.height)};
   paint(points, hours->sums, out);
   return out;
 }
 
-bool same_hours(const Picture& a, const Picture& b) {
-  const auto same_view = [](const ViewRays& v, const ViewRays& w) {
-    return v.eye == w.eye && v.d0 == w.d0 && v.dx == w.dx && v.dy == w.dy && v.orthographic == w.orthographic;
-  };
+}  // namespace
+
+Expected<CountedSun> count_sun(const SunQuestion& question, const SunCounter::Progress& progress,
+                               const StopFlag& stop) {
+  Expected<CountedSun> counted;
+  with_threads(question.picture->evidence.settings.threads,
+               [&] { counted = count(question, progress, stop); });
+  return counted;
+}
+
+bool same_casters(const Picture& a, const Picture& b) {
   const PictureEvidence &e = a.evidence, &f = b.evidence;
-  return a.scene == b.scene && same_view(a.view, b.view) && e.ids.size() == f.ids.size() &&
-         e.clip == f.clip && e.time_s == f.time_s && e.edits.nodes == f.edits.nodes;
+  const auto rules = [](const render::RenderSettings& of) {
+    return std::tuple(of.see_through, of.hard.cull_front, of.hard.contact);
+  };
+  return a.scene == b.scene && e.clip == f.clip && e.time_s == f.time_s && e.edits.nodes == f.edits.nodes &&
+         rules(e.settings) == rules(f.settings);
+}
+
+bool same_hours(const Picture& a, const Picture& b) {
+  const ViewRays &v = a.view, &w = b.view;
+  return same_casters(a, b) && v.eye == w.eye && v.d0 == w.d0 && v.dx == w.dx && v.dy == w.dy &&
+         v.orthographic == w.orthographic && a.evidence.ids.size() == b.evidence.ids.size();
 }
 
 }  // namespace tenebra::viewer

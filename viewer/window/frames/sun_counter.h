@@ -16,16 +16,20 @@ struct SunQuestion {
 struct CountedSun {
   SunQuestion asked;
   io::Image8 image;  ///< RGBA of the picture's size, or of a part of its pixels; clear where nothing is seen
+  glm::vec2 covered{1.0f};  ///< by `image`, of the picture's width and height, from its left and top
   double least_h = 0, most_h = 0, mean_h = 0;  ///< of the pixels; colours go from 0 to most_h
 };
 
 using SunCounter = OneJob<SunQuestion, CountedSun>;
 
-/// At most 2^18 points are asked about: of larger pictures each second pixel, or fewer.
+/// At most 2^18 points are asked about: of larger pictures each second pixel, or fewer. See-through surfaces,
+/// hard shadows and threads are as the picture's settings say.
 Expected<CountedSun> count_sun(const SunQuestion& question, const SunCounter::Progress& progress,
                                const StopFlag& stop);
 
-/// Both see the same triangles from the same place: the hours of one are those of the other.
+/// The same triangles cast the same shadows in both.
+bool same_casters(const Picture& a, const Picture& b);
+/// And they see them through the same pixels: the hours of one are those of the other.
 bool same_hours(const Picture& a, const Picture& b);
 
 }  // namespace tenebra::viewer

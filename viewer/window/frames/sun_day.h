@@ -13,6 +13,7 @@ struct SunDay {
   float north_deg = 0;   ///< likewise
   bool moves = true;     ///< a change of the above turns the scene's sun
   bool colours = false;  ///< hours as colours are wanted
+  int dark_light = -1;   ///< the light that is off because its sun has set; -1: none
   bool open = false;     ///< its section is: the view shows the sun's path
 };
 

@@ -62,7 +62,8 @@ public:
     if (show == CompareView::side_by_side) image(textures.b, places_[1], 0, 1);
     const float to = show == CompareView::wipe ? ui_.state.wipe : 1;
     if (shows_hours())
-      image(textures.hours, places_[0], 0, to, ui_.state.overlay_opacity);
+      image(textures.hours, {places_[0].low, covered_size()}, 0, std::min(1.0f, to / ui_.hours->covered.x),
+            ui_.state.overlay_opacity);
     else if (shows_overlay())
       image(textures.overlay, places_[0], 0, to, ui_.state.overlay_opacity);
   }
@@ -90,6 +91,10 @@ public:
 private:
   bool shows_a() const {
     return !both() || (ui_.state.show != CompareView::b && ui_.state.show != CompareView::difference);
+  }
+  /// Of the part that has hours.
+  ImVec2 covered_size() const {
+    return {places_[0].size.x * ui_.hours->covered.x, places_[0].size.y * ui_.hours->covered.y};
   }
   void image(const PictureTexture& texture, Area area, float from, float to, float opacity = 1) {
     if (texture.width() == 0) return;

@@ -72,21 +72,37 @@ int sun_light(const ViewState& state) {
   return -1;
 }
 
-/// At night it is off.
+/// The way that the day's sun shines, in the file's axes.
+glm::vec3 direction_of_day(const ViewState& state) {
+  return glm::vec3(state.scene->scene.frame.direction_to_file(-way_to_sun(state.sun)));
+}
+
+/// At night it is off; the day switches on what the night has switched off, not the user.
 void turn_sun(Ui& ui) {
   if (sun_light(ui.state) < 0) {
     add_light(ui, LightType::directional);
     ui.state.shown_light = ui.state.selected_light;  // the list of lights does not unfold above this section
   }
-  stage::LightEdit& edit = ui.state.light_edit(sun_light(ui.state));
-  const glm::dvec3 way = way_to_sun(ui.state.sun);
-  edit.on = way.y > 0;
-  edit.direction = glm::vec3(ui.state.scene->scene.frame.direction_to_file(-way));
+  const int light = sun_light(ui.state);
+  stage::LightEdit& edit = ui.state.light_edit(light);
+  int& dark_light = ui.state.sun.dark_light;
+  const bool night = way_to_sun(ui.state.sun).y <= 0;
+  if (!night && dark_light == light) edit.on = true, dark_light = -1;
+  if (night && edit.on) edit.on = false, dark_light = light;
+  edit.direction = direction_of_day(ui.state);
+}
+
+/// Undone, or turned by hand.
+bool stands_elsewhere(const ViewState& state) {
+  const int light = sun_light(state);
+  return light >= 0 && stage::edit_of(state.edits.lights, light).direction != direction_of_day(state);
 }
 
 void draw_counting(Ui& ui) {
   SunDay& day = ui.state.sun;
-  row(ui, "Hours", "Counts for each pixel how long the sun reaches it on this day; anew for each view.");
+  row(ui, "Hours",
+      "Counts for each pixel how long the sun reaches it on this day; anew for each view. Glass "
+      "dims it; curved surfaces count as their flat triangles.");
   ImGui::Checkbox("as colours", &day.colours);
   ui.mark("sun.colours");
   if (!day.colours) return;
@@ -122,6 +138,7 @@ void draw_sun_section(Ui& ui) {
   ui.mark("sun.moves");
   tooltip("The selected sun of the scene, or its first; one is added where there is none.");
   if (changed && day.moves) turn_sun(ui);
+  if (day.moves && stands_elsewhere(ui.state)) dim_text("It stands elsewhere now; a new time turns it.");
   draw_counting(ui);
   dim_text("A click says when a place is dark, and why.");
 }
