@@ -32,7 +32,7 @@ public:
 
   void send(int signal) const;
   /// Waits until it ends; kills it after `timeout_s` seconds (exit code 128 + 9).
-  ProgramResult wait(double timeout_s = 120 * patience);
+  ProgramResult wait(double timeout_s = 300 * patience);
 
 private:
   pid_t child_ = -1;
