@@ -24,22 +24,8 @@ Expected<void> check_points(double points) {
       points, most_points);
 }
 
-bool is_named(const std::vector<std::string>& names, const std::string& name) {
+bool is_named(std::span<const std::string> names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-/// For each node whether it is asked about: by its name or that of one above it.
-Expected<std::vector<bool>> chosen_nodes(const Scene& scene, const std::vector<std::string>& names) {
-  for (const std::string& name : names)
-    if (std::none_of(scene.nodes.begin(), scene.nodes.end(),
-                     [&](const Node& node) { return node.name == name; }))
-      return base::fail("found no node called {}, expected one of the scene's; tenebra info lists them",
-                        name);
-  std::vector<bool> chosen;
-  for (const Node& node : scene.nodes)
-    chosen.push_back(names.empty() || is_named(names, node.name) ||
-                     (node.parent >= 0 && chosen[static_cast<std::size_t>(node.parent)]));
-  return chosen;
 }
 
 Expected<std::vector<bool>> chosen_materials(const Scene& scene, const std::vector<std::string>& names) {
@@ -100,6 +86,19 @@ void add_face(const Face& face, std::size_t triangle, int node, int parts, const
 
 }  // namespace
 
+Expected<std::vector<bool>> nodes_called(const Scene& scene, std::span<const std::string> names) {
+  for (const std::string& name : names)
+    if (std::none_of(scene.nodes.begin(), scene.nodes.end(),
+                     [&](const Node& node) { return node.name == name; }))
+      return base::fail("found no node called {}, expected one of the scene's; tenebra info lists them",
+                        name);
+  std::vector<bool> called;
+  for (const Node& node : scene.nodes)
+    called.push_back(is_named(names, node.name) ||
+                     (node.parent >= 0 && called[static_cast<std::size_t>(node.parent)]));
+  return called;
+}
+
 std::vector<std::uint32_t> Receivers::ends() const {
   std::vector<std::uint32_t> ends;
   for (const Receiver& receiver : list) ends.push_back(receiver.end);
@@ -107,7 +106,9 @@ std::vector<std::uint32_t> Receivers::ends() const {
 }
 
 Expected<Receivers> face_receivers(const Scene& scene, const FrameGeometry& frame, const FaceChoice& choice) {
-  const auto nodes = chosen_nodes(scene, choice.nodes);
+  const auto nodes = choice.nodes.empty()
+                         ? Expected<std::vector<bool>>(std::vector<bool>(scene.nodes.size(), true))
+                         : nodes_called(scene, choice.nodes);
   if (!nodes) return tl::unexpected(nodes.error());
   const auto materials = chosen_materials(scene, choice.materials);
   if (!materials) return tl::unexpected(materials.error());

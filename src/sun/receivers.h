@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,10 @@ struct FaceChoice {
   int per_face = 16;        ///< points, rounded up to a square number
   double per_m2 = 0;        ///< points instead, of that density; 0: per_face
 };
+/// For each node whether it or one above it is called by one of these names. Fails on a name that the scene
+/// does not have.
+Expected<std::vector<bool>> nodes_called(const Scene& scene, std::span<const std::string> names);
+
 /// Points in the middle of the equal parts that lines parallel to its edges cut a triangle into: strictly
 /// inside, evenly spread, the same each time. Triangles without an area and hidden ones are left out. Fails
 /// on names that the scene does not have, where nothing is left, and where points are too many.

@@ -18,13 +18,16 @@ Casting casting_on(const std::vector<SeasonalCaster>& seasonal, std::chrono::mon
   return casting;
 }
 
+/// The nodes that do not cast, with all below them.
+Expected<std::vector<bool>> bare_nodes(const SeasonalScene& s, const Casting& casting) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < casting.size(); ++i)
+    if (!casting[i]) names.push_back(s.seasonal[i].node);
+  return nodes_called(s.scene, names);
+}
+
 Expected<void> check_nodes(const SeasonalScene& s) {
-  for (const SeasonalCaster& caster : s.seasonal)
-    if (std::ranges::none_of(s.scene.nodes, [&](const Node& node) { return node.name == caster.node; }))
-      return base::fail(
-          "--season: found no node called {}, expected one of the scene's; tenebra info lists them",
-          caster.node);
-  return {};
+  return bare_nodes(s, Casting(s.seasonal.size(), false)).map([](const auto&) {});
 }
 
 /// Which triangles cast, and which let light pass.
@@ -32,19 +35,15 @@ struct Casters {
   std::vector<std::uint8_t> casts_shadow, see_through;
 };
 
-Casters casters_when(const SeasonalScene& s, const Casting& casting) {
+Casters casters_without(const SeasonalScene& s, const std::vector<bool>& bare) {
   Casters out{s.frame.casts_shadow, s.frame.see_through};
-  std::vector<bool> bare;
   std::size_t part = 0;
-  for (const Node& node : s.scene.nodes) {
-    bool is_bare = node.parent >= 0 && bare[static_cast<std::size_t>(node.parent)];
-    for (std::size_t i = 0; i < casting.size(); ++i)
-      is_bare = is_bare || (!casting[i] && s.seasonal[i].node == node.name);
-    bare.push_back(is_bare);
-    if (node.mesh < 0) continue;
+  for (std::size_t node = 0; node < s.scene.nodes.size(); ++node) {
+    if (s.scene.nodes[node].mesh < 0) continue;
     const auto [first, end] = scene::triangles_of_part(s.frame, part++);
-    for (std::size_t t = first; is_bare && t < end; ++t) {
+    for (std::size_t t = first; bare[node] && t < end; ++t) {
       out.casts_shadow[t] = 0;
+      // 2: drawn as see-through still, but it dims nothing (FrameGeometry::see_through).
       if (!out.see_through.empty() && out.see_through[t] == 1) out.see_through[t] = 2;
     }
   }
@@ -55,7 +54,9 @@ Casters casters_when(const SeasonalScene& s, const Casting& casting) {
 Expected<SunHours> hours_when(const SeasonalScene& s, const Casting& casting, const Receivers& receivers,
                               std::span<const Sun> suns, HoursConfig config, const StopFlag* stop,
                               const QueryProgress& progress) {
-  const Casters casters = casters_when(s, casting);
+  const auto bare = bare_nodes(s, casting);
+  if (!bare) return tl::unexpected(bare.error());
+  const Casters casters = casters_without(s, *bare);
   const auto geometry = Geometry::create(s.frame.positions, s.frame.triangles, casters.casts_shadow);
   if (!geometry) return tl::unexpected(geometry.error());
   const auto glass = glass_of(s.scene, s.frame, casters.see_through);
