@@ -19,8 +19,9 @@ struct Lattice {
   int step = 1, width = 0, height = 0;
 
   explicit Lattice(Size size) {
-    while ((size.width / step + 1) * (size.height / step + 1) > most_pixels) ++step;
-    width = std::max(size.width / step, 1), height = std::max(size.height / step, 1);
+    const int most_step = std::max(std::min(size.width, size.height), 1);  // narrow pictures keep a column
+    while (step < most_step && (size.width / step + 1) * (size.height / step + 1) > most_pixels) ++step;
+    width = size.width / step, height = size.height / step;
   }
   std::size_t pixel(int x, int y, int picture_width) const {
     const int middle = step / 2;
