@@ -138,7 +138,7 @@ void draw_sun_section(Ui& ui) {
   ui.mark("sun.moves");
   tooltip("The selected sun of the scene, or its first; one is added where there is none.");
   if (changed && day.moves) turn_sun(ui);
-  if (day.moves && stands_elsewhere(ui.state)) dim_text("It stands elsewhere now; a new time turns it.");
+  if (day.moves && stands_elsewhere(ui.state)) dim_text("The light is elsewhere; move the time to turn it.");
   draw_counting(ui);
   dim_text("A click says when a place is dark, and why.");
 }
